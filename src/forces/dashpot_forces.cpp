@@ -62,11 +62,11 @@ void add_dashpots(NodalForces& forces, std::vector<Vec2>& on_point, const Dashpo
       push += along(d.points[p].weight, times(d.points[p], step.reference[p]) + push_of(step, p));
     }
     const NodalVector right =
-        (1.0 - step.half_damping) * (mass * before) + step.h * (push - 0.5 * c * before);
+        (1.0 - step.half_damping_of(i)) * (mass * before) + step.h * (push - 0.5 * c * before);
     const NodalMatrix strain =
         viscous_matrix(b, scene.masses, i, deformation(b, state.x, state.y, i));
     const NodalMatrix left =
-        (1.0 + step.half_damping) * mass + (0.5 * step.h) * c + step.h * strain;
+        (1.0 + step.half_damping_of(i)) * mass + (0.5 * step.h) * c + step.h * strain;
     const NodeVectors mean =
         vectors_of(0.5 * (before + Eigen::LLT<NodalMatrix>(left).solve(right)));
     for (Id p = d.begin[q]; p < d.begin[q + 1]; ++p) {

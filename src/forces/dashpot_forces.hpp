@@ -21,8 +21,12 @@ struct DashpotScene {
 struct DashpotStep {
   double h;                            ///< mean of the last and the next step, s
   double half_damping;                 ///< a h/2, a the coefficient of mass-proportional damping
+  const std::vector<double>* damping;  ///< [nb] a of each block, 1/s, instead; null: all alike
   const std::vector<Vec2>& reference;  ///< [points] r_n, velocity of the ground, m/s
   const std::vector<Vec2>& push;       ///< [points] additional forces, N; empty: none
+  double half_damping_of(std::size_t i) const {
+    return damping == nullptr ? half_damping : 0.5 * h * (*damping)[i];
+  }
 };
 
 /// Adds the forces f = -C ((v_{n-1/2} + v_{n+1/2})/2 - r_n) + push of the dashpots on the blocks

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cmath>
+#include <cstddef>
+#include <vector>
 
 #include "base/vec2.hpp"
 #include "base/vector_loop.hpp"
@@ -23,6 +25,34 @@ struct Kick {
   double keeps;  ///< (1 - a h/2)/(1 + a h/2)
   double h;      ///< h/(1 + a h/2), s
   double h_new, local;
+};
+
+/// The same for blocks of which each has a mass-proportional damping of its own.
+struct BlockKicks {
+  std::vector<double> mass;   ///< [nb] a, 1/s
+  std::vector<double> keeps;  ///< [nb] (1 - a h/2)/(1 + a h/2)
+  std::vector<double> h;      ///< [nb] h/(1 + a h/2), s
+};
+/// h: mean of the last and the next step, s.
+inline void set_kicks(BlockKicks& kicks, double h) {
+  kicks.keeps.resize(kicks.mass.size());
+  kicks.h.resize(kicks.mass.size());
+  for (std::size_t i = 0; i < kicks.mass.size(); ++i) {
+    const double half = 0.5 * kicks.mass[i] * h;
+    kicks.keeps[i] = (1.0 - half) / (1.0 + half);
+    kicks.h[i] = h / (1.0 + half);
+  }
+}
+
+/// The kick of each block: all alike, or each its own.
+struct OneKick {
+  Kick kick;
+  EDDA_INLINE Kick of(std::size_t) const { return kick; }
+};
+struct OwnKicks {
+  const double *keeps, *h;
+  double h_new, local;
+  EDDA_INLINE Kick of(std::size_t i) const { return {keeps[i], h[i], h_new, local}; }
 };
 
 EDDA_INLINE Vec2 kicked(Vec2 before, Vec2 acceleration, const Kick& kick) {

@@ -26,9 +26,13 @@ EDDA_INLINE void advance_one(const NodeView& n, const Kick& kick, std::size_t i)
   n.y[i] += kick.h_new * after.y;
 }
 
-EDDA_VECTOR void advance_nodes(NodeView n, Kick kick, std::size_t begin, std::size_t end) {
+EDDA_VECTOR void advance_nodes(NodeView n, OneKick kicks, std::size_t begin, std::size_t end) {
 #pragma omp simd
-  for (std::size_t i = begin; i < end; ++i) advance_one(n, kick, i);
+  for (std::size_t i = begin; i < end; ++i) advance_one(n, kicks.of(i), i);
+}
+EDDA_VECTOR void advance_nodes(NodeView n, OwnKicks kicks, std::size_t begin, std::size_t end) {
+#pragma omp simd
+  for (std::size_t i = begin; i < end; ++i) advance_one(n, kicks.of(i), i);
 }
 
 /// Blocks whose nodes have lumped masses and are damped. `free`, `local` (beta) and `by_mass` (a)
@@ -70,29 +74,21 @@ Kick kick_of(const Leap& leap, double h_of_positions) {
   return {(1.0 - half) / (1.0 + half), h / (1.0 + half), h_of_positions, leap.damping.local};
 }
 
-bool is_in(const std::vector<Id>* blocks, std::size_t i) {
-  return blocks != nullptr &&
-         std::binary_search(blocks->begin(), blocks->end(), static_cast<Id>(i));
+OwnKicks own_kicks(const Leap& leap, double h_of_positions) {
+  const BlockKicks& k = *leap.damping.kicks;
+  return {k.keeps.data(), k.h.data(), h_of_positions, leap.damping.local};
 }
 
-/// The first block of [begin, end) that some damping spares; else `end`.
+/// The first block of [begin, end) that local damping spares; else `end`.
 std::size_t next_spared(const StepDamping& damping, std::size_t begin, std::size_t end) {
-  const bool damps = damping.local > 0.0 || damping.mass > 0.0;
-  std::size_t next = end;
-  for (const std::vector<Id>* of :
-       {damping.local > 0.0 ? damping.spared : nullptr, damps ? damping.in_flight : nullptr}) {
-    if (of == nullptr) continue;
-    const auto i = std::lower_bound(of->begin(), of->end(), static_cast<Id>(begin));
-    if (i != of->end()) next = std::min<std::size_t>(next, *i);
-  }
-  return next;
+  if (damping.local == 0.0 || damping.spared == nullptr) return end;
+  const std::vector<Id>& of = *damping.spared;
+  const auto i = std::lower_bound(of.begin(), of.end(), static_cast<Id>(begin));
+  return i == of.end() ? end : std::min<std::size_t>(*i, end);
 }
 
-/// Damping of block i.
-StepDamping damping_of(const StepDamping& damping, std::size_t i) {
-  const bool flies = is_in(damping.in_flight, i);
-  return {flies ? 0.0 : damping.mass, flies || is_in(damping.spared, i) ? 0.0 : damping.local,
-          nullptr, damping.strain};
+double local_damping_of(const StepDamping& damping, std::size_t i) {
+  return next_spared(damping, i, i + 1) == i ? 0.0 : damping.local;
 }
 
 }  // namespace
@@ -103,27 +99,23 @@ void advance(State& s, const Leap& leap, std::size_t begin, std::size_t end) {
   const StepDamping& damping = leap.damping;
   for (std::size_t i = next_spared(damping, begin, end); i < end;
        i = next_spared(damping, begin, end)) {
-    const StepDamping all{damping.mass, damping.local, nullptr, damping.strain},
-        its = damping_of(damping, i);
+    StepDamping all = damping, its = damping;
+    all.spared = its.spared = nullptr;
+    its.local = 0.0;
     const auto damped_by = [&](const StepDamping& other) {
       return Leap{b,           masses,     leap.force_x, leap.force_y, leap.old_vx,
                   leap.old_vy, leap.h_old, leap.h_new,   other};
     };
     advance(s, damped_by(all), begin, i);
     advance(s, damped_by(its), i, i + 1);
-    if (damping.strain != nullptr && its.mass != damping.mass) {
-      // W is that of a step with mass damping, in which forces change velocities by so much less.
-      const double less = 1.0 / (1.0 + 0.25 * damping.mass * (leap.h_old + leap.h_new));
-      for (std::vector<double>& stress : damping.strain->stress) stress[i] *= less;
-      damping.strain->work[i] *= less;
-    }
     begin = i + 1;
   }
   const double h_new = leap.h_new;
   const StepsAround step{leap.old_vx, leap.old_vy, leap.h_old, h_new};
   // With strain damping the nodes of a block move together, after all have their new velocities.
   const bool strains = damping.strain != nullptr;
-  const Kick kick = kick_of(leap, strains ? 0.0 : h_new);
+  const double h_of_positions = strains ? 0.0 : h_new;
+  const Kick kick = kick_of(leap, h_of_positions);
   if (masses.kind != MassKind::consistent) {
     for (std::size_t k = 0; k < nodes_per_block; ++k) {
       const NodeView node{masses.node_inverse[k].data(),
@@ -135,7 +127,11 @@ void advance(State& s, const Leap& leap, std::size_t begin, std::size_t end) {
                           s.vy[k].data(),
                           s.x[k].data(),
                           s.y[k].data()};
-      advance_nodes(node, kick, begin, end);
+      if (damping.kicks != nullptr) {
+        advance_nodes(node, own_kicks(leap, h_of_positions), begin, end);
+      } else {
+        advance_nodes(node, OneKick{kick}, begin, end);
+      }
     }
     if (strains) damp_strain_and_move(*damping.strain, b, masses, s, step, begin, end);
     return;
@@ -147,12 +143,13 @@ void advance(State& s, const Leap& leap, std::size_t begin, std::size_t end) {
       f[k] += local_damping(f[k], v[k], damping.local);
     }
     const NodeVectors a = is_free(b, s, i) ? accelerations(masses, i, f) : NodeVectors{};
+    const Kick own = damping.kicks != nullptr ? own_kicks(leap, h_of_positions).of(i) : kick;
     for (std::size_t k = 0; k < nodes_per_block; ++k) {
-      const Vec2 after = kicked(v[k], a[k], kick);
+      const Vec2 after = kicked(v[k], a[k], own);
       s.vx[k][i] = after.x;
       s.vy[k][i] = after.y;
-      s.x[k][i] += kick.h_new * after.x;
-      s.y[k][i] += kick.h_new * after.y;
+      s.x[k][i] += own.h_new * after.x;
+      s.y[k][i] += own.h_new * after.y;
     }
   }
   if (strains) damp_strain_and_move(*damping.strain, b, masses, s, step, begin, end);
@@ -166,9 +163,14 @@ void add_and_advance(State& s, const Leap& leap, const ForcesToAdd& forces, std:
     add_to_free(leap.blocks, s, forces, begin, end);
     return advance(s, leap, begin, end);
   }
-  add_kick_and_damp(*damping.strain, leap.blocks, leap.masses, s, forces,
-                    {leap.old_vx, leap.old_vy, leap.h_old, leap.h_new}, kick_of(leap, leap.h_new),
-                    begin, end);
+  const StepsAround step{leap.old_vx, leap.old_vy, leap.h_old, leap.h_new};
+  if (damping.kicks != nullptr) {
+    add_kick_and_damp(*damping.strain, leap.blocks, leap.masses, s, forces, step,
+                      own_kicks(leap, leap.h_new), begin, end);
+  } else {
+    add_kick_and_damp(*damping.strain, leap.blocks, leap.masses, s, forces, step,
+                      OneKick{kick_of(leap, leap.h_new)}, begin, end);
+  }
 }
 
 void advance(State& s, const Leap& leap) {
@@ -187,19 +189,19 @@ void account_damping(const State& s, const Leap& leap, DampingWork& work) {
     parallel_for(
         b.size(), [&](std::size_t i) { work.joules[i] += of_strain[i]; }, 1);
   }
-  if (damping.mass == 0.0 && damping.local == 0.0) return;
+  if (damping.mass == 0.0 && damping.local == 0.0 && damping.kicks == nullptr) return;
   if (leap.masses.kind == MassKind::consistent) {
     parallel_for(b.size(), [&](std::size_t i) {
       if (!is_free(b, s, i)) return;
-      const StepDamping its = damping_of(damping, i);
+      const double local = local_damping_of(damping, i);
       const NodeVectors before = vectors_of(old_vx, old_vy, i), after = vectors_of(s.vx, s.vy, i);
       const NodeVectors f = vectors_of(leap.force_x, leap.force_y, i);
       NodeVectors moved;
       for (std::size_t k = 0; k < nodes_per_block; ++k) {
         moved[k] = half_way(before[k], after[k], h_old, h_new);
-        work.joules[i] -= dot(local_damping(f[k], before[k], its.local), moved[k]);
+        work.joules[i] -= dot(local_damping(f[k], before[k], local), moved[k]);
       }
-      work.joules[i] += its.mass * mass_product(leap.masses, i, 0.5 * (before + after), moved);
+      work.joules[i] += damping.mass_of(i) * mass_product(leap.masses, i, 0.5 * (before + after), moved);
     });
     return;
   }
@@ -207,13 +209,10 @@ void account_damping(const State& s, const Leap& leap, DampingWork& work) {
     const FreeMarks free(b, s, begin, end);
     std::array<double, blocks_at_once> local, mass;
     local.fill(damping.local);
-    mass.fill(damping.mass);
+    for (std::size_t i = begin; i < end; ++i) mass[i - begin] = damping.mass_of(i);
     for (std::size_t i = next_spared(damping, begin, end); i < end;
-         i = next_spared(damping, i + 1, end)) {
-      const StepDamping its = damping_of(damping, i);
-      local[i - begin] = its.local;
-      mass[i - begin] = its.mass;
-    }
+         i = next_spared(damping, i + 1, end))
+      local[i - begin] = 0.0;
     const DampedView view{values_of(leap.masses.node),
                           values_of(leap.force_x),
                           values_of(leap.force_y),

@@ -5,22 +5,24 @@
 
 #include "blocks/kinematics.hpp"
 #include "blocks/masses.hpp"
+#include "integrate/kick.hpp"
 #include "integrate/strain_damping.hpp"
 
 namespace edda {
 
 /// Damping of the step.
 struct StepDamping {
-  double mass = 0.0;   ///< a, 1/s
+  double mass = 0.0;   ///< a, 1/s; of all blocks where `kicks` is null
   double local = 0.0;  ///< beta
   /// Blocks without local damping, ascending: those on dashpots, which damp them already, and which
   /// would gain energy from beta times their own force. Null: none.
   const std::vector<Id>* spared = nullptr;
   /// Strain damping of the blocks, prepared for this step; null: none.
   StrainDamping* strain = nullptr;
-  /// Blocks with neither of the two, ascending: those that fly, which damping would hold in the
-  /// air. Null: none.
-  const std::vector<Id>* in_flight = nullptr;
+  /// Each block's own a, set for this step (set_kicks()); null: all have the same.
+  const BlockKicks* kicks = nullptr;
+
+  double mass_of(std::size_t i) const { return kicks == nullptr ? mass : kicks->mass[i]; }
 };
 
 /// Work dissipated by damping of nodes and strain, per block.

@@ -72,7 +72,7 @@ NodeVectors damped_velocity(StrainDamping& damping, const BlockSet& b, const Mas
   damping.stress[1][i] += s.yy;
   damping.stress[2][i] += s.xy;
   const NodeVectors f = nodal_forces_of(b, stress_on_rate(frame, s), 1.0, i);
-  return v - damping.step * accelerations(masses, i, f);
+  return v - damping.step_of(i) * accelerations(masses, i, f);
 }
 
 /// Dissipation of block i once its velocities are v.
@@ -91,7 +91,9 @@ struct BlocksView {
   double* work;
   NodeValues x, y, vx, vy;
   ConstNodeValues old_vx, old_vy;
-  double h, h_old, h_new;  ///< h: of W, StrainDamping::step
+  double h;         ///< s, of W, StrainDamping::step
+  const double* steps;  ///< StrainDamping::steps; null: none
+  double h_old, h_new;
 };
 BlocksView blocks_view(StrainDamping& d, const BlockSet& b, const Masses& masses, State& s,
                        const StepsAround& step) {
@@ -109,15 +111,16 @@ BlocksView blocks_view(StrainDamping& d, const BlockSet& b, const Masses& masses
           values_of(step.old_vx),
           values_of(step.old_vy),
           d.step,
+          d.steps.empty() ? nullptr : d.steps.data(),
           step.h_old,
           step.h_new};
 }
 
-/// Damps v*, the velocities v of block i, and moves it.
-EDDA_INLINE void damp_and_move(const BlocksView& b, const NodeVectors& v, std::size_t i) {
+/// Damps v*, the velocities v of block i, and moves it. h: of its W.
+EDDA_INLINE void damp_and_move(const BlocksView& b, const NodeVectors& v, double h, std::size_t i) {
   const StrainFrame frame = strain_frame(deformation(b, b.x, b.y, i));
   const StrainTerms s = times(b.w, i, strain_rate_over(frame, gradient_of(b, v, i), b.h_new));
-  const NodeVectors f = nodal_forces_of(b, stress_on_rate(frame, s), b.h, i);
+  const NodeVectors f = nodal_forces_of(b, stress_on_rate(frame, s), h, i);
   NodeVectors after;
   for (std::size_t k = 0; k < nodes_per_block; ++k) {
     const double per_mass = b.inverse_mass[k][i];
@@ -132,8 +135,14 @@ EDDA_INLINE void damp_and_move(const BlocksView& b, const NodeVectors& v, std::s
 }
 
 EDDA_VECTOR void damp_and_move_all(BlocksView b, std::size_t begin, std::size_t end) {
+  if (b.steps != nullptr) {
 #pragma omp simd
-  for (std::size_t i = begin; i < end; ++i) damp_and_move(b, vectors_of(b.vx, b.vy, i), i);
+    for (std::size_t i = begin; i < end; ++i)
+      damp_and_move(b, vectors_of(b.vx, b.vy, i), b.steps[i], i);
+    return;
+  }
+#pragma omp simd
+  for (std::size_t i = begin; i < end; ++i) damp_and_move(b, vectors_of(b.vx, b.vy, i), b.h, i);
 }
 
 /// Completes the forces of block i, kicks, damps and moves it.
@@ -144,28 +153,55 @@ EDDA_INLINE void kick_and_move(const BlocksView& b, const FreeForces& f, const K
     v[k] =
         kicked_node({b.old_vx[k][i], b.old_vy[k][i]}, f.complete(k, i), b.inverse_mass[k][i], kick);
   }
-  damp_and_move(b, v, i);
+  damp_and_move(b, v, kick.h, i);
 }
 
-EDDA_VECTOR void add_kick_and_damp_all(BlocksView b, FreeForces f, Kick kick, std::size_t begin,
+EDDA_VECTOR void add_kick_and_damp_all(BlocksView b, FreeForces f, OneKick kicks, std::size_t begin,
                                        std::size_t end) {
 #pragma omp simd
-  for (std::size_t i = begin; i < end; ++i) kick_and_move(b, f, kick, i);
+  for (std::size_t i = begin; i < end; ++i) kick_and_move(b, f, kicks.of(i), i);
+}
+EDDA_VECTOR void add_kick_and_damp_all(BlocksView b, FreeForces f, OwnKicks kicks,
+                                       std::size_t begin, std::size_t end) {
+#pragma omp simd
+  for (std::size_t i = begin; i < end; ++i) kick_and_move(b, f, kicks.of(i), i);
+}
+
+/// Computes W of the blocks of which `changed` says so, for the step h_of(i).
+template <class Changed, class Step>
+void find_responses(StrainDamping& d, const BlockSet& b, const Masses& masses, Changed changed,
+                    Step h_of) {
+  for (auto& entry : d.matrix) entry.resize(b.size(), 0.0);
+  for (auto& stress : d.stress) stress.resize(b.size(), 0.0);
+  d.work.resize(b.size(), 0.0);
+  parallel_for(b.size(), [&](std::size_t i) {
+    if (!changed(i)) return;
+    const bool damped = b.fixed[i] == 0 && masses.viscosity[i] > 0.0;
+    const std::array<double, 6> w =
+        damped ? response(b, masses, i, h_of(i)) : std::array<double, 6>{};
+    for (std::size_t e = 0; e < 6; ++e) d.matrix[e][i] = w[e];
+  });
 }
 
 }  // namespace
 
 void prepare(StrainDamping& d, const BlockSet& b, const Masses& masses, double h) {
-  if (d.step == h && d.matrix[0].size() == b.size()) return;
+  if (d.step == h && d.steps.empty() && d.matrix[0].size() == b.size()) return;
   d.step = h;
-  for (auto& entry : d.matrix) entry.assign(b.size(), 0.0);
-  for (auto& stress : d.stress) stress.resize(b.size(), 0.0);
-  d.work.resize(b.size(), 0.0);
-  parallel_for(b.size(), [&](std::size_t i) {
-    if (b.fixed[i] != 0 || !(masses.viscosity[i] > 0.0)) return;
-    const std::array<double, 6> w = response(b, masses, i, h);
-    for (std::size_t e = 0; e < 6; ++e) d.matrix[e][i] = w[e];
-  });
+  d.steps.clear();
+  find_responses(
+      d, b, masses, [](std::size_t) { return true; }, [h](std::size_t) { return h; });
+}
+
+void prepare(StrainDamping& d, const BlockSet& b, const Masses& masses,
+             const std::vector<double>& h) {
+  const bool all = d.step == 0.0 || d.steps.size() != b.size();
+  if (!all && d.steps == h) return;
+  find_responses(
+      d, b, masses, [&](std::size_t i) { return all || d.steps[i] != h[i]; },
+      [&](std::size_t i) { return h[i]; });
+  d.steps = h;
+  d.step = h.empty() ? 0.0 : h.front();
 }
 
 void damp_strain_and_move(StrainDamping& d, const BlockSet& b, const Masses& masses, State& s,
@@ -191,10 +227,18 @@ void damp_strain_and_move(StrainDamping& d, const BlockSet& b, const Masses& mas
 }
 
 void add_kick_and_damp(StrainDamping& d, const BlockSet& b, const Masses& masses, State& s,
-                       const ForcesToAdd& forces, const StepsAround& step, const Kick& kick,
+                       const ForcesToAdd& forces, const StepsAround& step, const OneKick& kick,
                        std::size_t begin, std::size_t end) {
   const FreeMarks free(b, s, begin, end);
   add_kick_and_damp_all(blocks_view(d, b, masses, s, step), free_forces(forces, free), kick, begin,
+                        end);
+}
+
+void add_kick_and_damp(StrainDamping& d, const BlockSet& b, const Masses& masses, State& s,
+                       const ForcesToAdd& forces, const StepsAround& step, const OwnKicks& kicks,
+                       std::size_t begin, std::size_t end) {
+  const FreeMarks free(b, s, begin, end);
+  add_kick_and_damp_all(blocks_view(d, b, masses, s, step), free_forces(forces, free), kicks, begin,
                         end);
 }
 

@@ -30,6 +30,8 @@ struct StrainDamping {
   std::vector<double> work;  ///< [nb] what it dissipated in the last step, J: s : B (x_{n+1} -
                              ///< x_{n-1})/2
   double step = 0.0;         ///< s: h for which W was computed; 0: none
+  std::vector<double> steps;  ///< [nb] s, that of each block; empty where all have the same
+  double step_of(std::size_t i) const { return steps.empty() ? step : steps[i]; }
 };
 
 /// How the blocks came to step n, and the steps before and after it.
@@ -41,6 +43,9 @@ struct StepsAround {
 /// Computes W for the step h (with mass damping a it is h/(1 + a h/2)) unless it is that already.
 /// After a change of masses or viscosities set StrainDamping::step to 0.
 void prepare(StrainDamping& damping, const BlockSet& blocks, const Masses& masses, double h);
+/// The same with a step of its own for each block, [nb] s.
+void prepare(StrainDamping& damping, const BlockSet& blocks, const Masses& masses,
+             const std::vector<double>& h);
 
 /// Changes v* to v_{n+1/2} at the positions of step n, which then move by h_new v_{n+1/2}, for the
 /// blocks [begin, end). Stores s and its work.
@@ -52,7 +57,10 @@ void damp_strain_and_move(StrainDamping& damping, const BlockSet& blocks, const 
 /// adds the forces, makes v* of v_{n-1/2} by the kick, then damps and moves as above.
 void add_kick_and_damp(StrainDamping& damping, const BlockSet& blocks, const Masses& masses,
                        State& state, const ForcesToAdd& forces, const StepsAround& step,
-                       const Kick& kick, std::size_t begin, std::size_t end);
+                       const OneKick& kick, std::size_t begin, std::size_t end);
+void add_kick_and_damp(StrainDamping& damping, const BlockSet& blocks, const Masses& masses,
+                       State& state, const ForcesToAdd& forces, const StepsAround& step,
+                       const OwnKicks& kicks, std::size_t begin, std::size_t end);
 
 /// The part of a `change` of the velocities of block i, due to a changed force in the step just
 /// made, that remains under strain damping; updates s and its work accordingly.

@@ -137,14 +137,13 @@ std::vector<std::uint8_t> blocks_at_rest(const Simulation& sim, const SlowingDow
     if (!is_free(b, s, i)) continue;
     const double most = rest_part * size_of(sim, i);
     const double force = force_on(sim, i, rounding[i]);
-    const Vec2 v = centroid(s.vx, s.vy, i);
-    if (sim.stepper->remaining_travel(sim, i, force) > most) {
-      rest[i] = 0;
-    } else if (slowing != nullptr && slowing->to_come(i) > most) {
-      const double speed = norm(v) * std::sqrt(inertia_of(sim.motion.masses, i) / b.mass[i]);
-      const double time = rest_time(size_of(sim, i), acceleration_on(sim, acting, i));
-      rest[i] = speed * time + 0.5 * force / b.mass[i] * time * time <= most ? 1 : 0;
-    }
+    const bool stiff = sim.stepper->remaining_travel(sim, i, force) <= most;
+    if (stiff && (slowing == nullptr || slowing->to_come(i) <= most)) continue;
+    const double speed = norm(centroid(s.vx, s.vy, i)) *
+                         std::sqrt(inertia_of(sim.motion.masses, i) / b.mass[i]);
+    const double time = rest_time(size_of(sim, i), acceleration_on(sim, acting, i));
+    const double travel = speed * time + 0.5 * force / b.mass[i] * time * time;
+    rest[i] = slowing != nullptr && travel <= most ? 1 : 0;
   }
   return rest;
 }

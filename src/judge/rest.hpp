@@ -69,10 +69,10 @@ void SlowingDown::list(Archive& a) {
 }
 
 /// [nb] 1: the block is at rest, or not free. With the velocity v and the resultant R of the forces
-/// on it, less their rounding, it would move by no more than rest_part of its size L both against
-/// the stiffness of the motion (Stepper::remaining_travel) and, unless it is seen to slow down
-/// before that, if nothing held it: v T + R/m T^2/2 with T = rest_time(L, a), m its true mass, and v
-/// that of the same kinetic energy with this mass. `slowing`: null where nothing is extrapolated.
+/// on it, less their rounding, it would move by no more than rest_part of its size L if nothing held
+/// it, v T + R/m T^2/2 with T = rest_time(L, a), m its true mass, and v that of the same kinetic
+/// energy with this mass; or against the stiffness of its motion (Stepper::remaining_travel), if it
+/// is also seen to slow down before that. `slowing`: null where only the latter counts.
 std::vector<std::uint8_t> blocks_at_rest(const Simulation& sim, const SlowingDown* slowing);
 
 }  // namespace edda

@@ -30,6 +30,7 @@ void list_state(Archive& a, Simulation& s) {
   a("damping.contact", s.motion.damping.contact);
   a("damping.adaptive", s.motion.damping.adaptive);
   a("frequency_estimate.frequency", s.relaxation.estimate.frequency);
+  a("frequency_estimate.of_block", s.relaxation.estimate.of_block);
   a("frequency_estimate.least", s.relaxation.estimate.least);
   a("frequency_estimate.since", s.relaxation.estimate.since);
   a("frequency_estimate.x", s.relaxation.estimate.x);
@@ -37,7 +38,6 @@ void list_state(Archive& a, Simulation& s) {
   a("frequency_estimate.fx", s.relaxation.estimate.fx);
   a("frequency_estimate.fy", s.relaxation.estimate.fy);
   a("loose", s.relaxation.loose);
-  a("in_flight", s.relaxation.in_flight);
   a("seeks_equilibrium", s.relaxation.seeks_equilibrium);
   a("balanced", s.relaxation.balanced);
   a("equilibrium_ratio", s.relaxation.equilibrium_ratio);
@@ -183,7 +183,8 @@ void examine(Examiner& j, const Simulation& s) {
     j.sized("pose", *values, nv);
   }
   j.below("bound.block", {s.control.bound.block}, nb, true);
-  j.below("in_flight", s.relaxation.in_flight, nb);
+  if (!s.relaxation.estimate.of_block.empty())
+    j.sized("frequency_estimate.of_block", s.relaxation.estimate.of_block, nb);
   j.positive("state.step", s.motion.state.step);
   j.positive("step_limit", s.control.limit);
   if (!s.motion.masses.raised.empty()) j.sized("masses.raised", s.motion.masses.raised, nb);

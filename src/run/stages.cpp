@@ -63,7 +63,6 @@ void seek_equilibrium(Simulation& sim, const Stage& stage) {
   r.equilibrium_ratio = stage.ratio;
   if (r.seeks_equilibrium) return;
   r.estimate = {};
-  r.in_flight.clear();
 }
 
 StageRecord stage_record(const Simulation& sim, const EnergyBalance& energy, double start,

@@ -45,10 +45,10 @@ bool any(const CornerForces& f) {
   return false;
 }
 
-/// f . M^-1 f of one block.
+/// Change of the velocity of one block along f in the step, times f.
 double mobility(const StepTaken& taken, Id i, const NodeVectors& force) {
   if (taken.blocks.fixed[i]) return 0.0;
-  return dot(accelerations(taken.masses, i, force), force);
+  return taken.kick_of(i) * dot(accelerations(taken.masses, i, force), force);
 }
 
 class Correction {
@@ -236,7 +236,7 @@ class Correction {
     f.was_closed = before.energy > 0.0;
     f.stored = stored_between(before, f.then, f.element, f.at, false);
     const OnBlocks on = on_blocks(c_, b_, f.element.force, k);
-    f.own_work = taken_.kick * taken_.h_new *
+    f.own_work = taken_.h_new *
                  (mobility(taken_, b_.vertex_block[c_.edge[k]], on.first) +
                   mobility(taken_, b_.vertex_block[c_.facing[k]], on.second));
     f.alpha = 1.0;

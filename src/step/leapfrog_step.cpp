@@ -30,12 +30,23 @@ double energy_of_step_change(const State& s, const Leap& leap) {
   return twice * (leap.h_old - leap.h_new) / (2.0 * (leap.h_old + leap.h_new));
 }
 
-/// Damping in force; `strain` is the strain damping, yet to be prepared.
-StepDamping step_damping(const Simulation& sim, StrainDamping& strain) {
+/// Damping in force in a step of the mean length h (s), prepared for it.
+StepDamping step_damping(const Simulation& sim, double h, StrainDamping& strain,
+                         BlockKicks& kicks) {
   const std::vector<Id>& damped = sim.attached.dashpots.damped;
-  return {mass_damping(sim), sim.motion.damping.local, damped.empty() ? nullptr : &damped,
-          sim.motion.masses.viscosity.empty() ? nullptr : &strain,
-          sim.motion.damping.adaptive > 0.0 ? &sim.relaxation.in_flight : nullptr};
+  const Masses& masses = sim.motion.masses;
+  StepDamping damping{mass_damping(sim), sim.motion.damping.local,
+                      damped.empty() ? nullptr : &damped,
+                      masses.viscosity.empty() ? nullptr : &strain};
+  if (sim.motion.damping.adaptive > 0.0) {
+    mass_damping_of_blocks(sim, kicks.mass);
+    set_kicks(kicks, h);
+    damping.kicks = &kicks;
+    if (damping.strain != nullptr) prepare(strain, sim.scene->blocks, masses, kicks.h);
+  } else if (damping.strain != nullptr) {
+    prepare(strain, sim.scene->blocks, masses, h / (1.0 + 0.5 * damping.mass * h));
+  }
+  return damping;
 }
 
 /// The step from n to n + 1, with the state at n.
@@ -60,11 +71,10 @@ bool move(Simulation& sim, double h_old, double h_new, const LoadsNow* not_yet_g
   drive_ground(sim, h_old, h_new);
   if (not_yet_gathered == nullptr) remove_dashpots(forces, sim.motion.on_dashpots, dashpots);
   const double h = 0.5 * (h_old + h_new);
-  own.damps = step_damping(sim, own.strain_damping);
-  const double half_mass_damping = 0.5 * own.damps.mass * h;
-  if (own.damps.strain != nullptr)
-    prepare(*own.damps.strain, blocks, sim.motion.masses, h / (1.0 + half_mass_damping));
-  const DashpotStep dashpot_step{h, half_mass_damping, own.drive.reference, own.drive.push};
+  own.damps = step_damping(sim, h, own.strain_damping, own.kicks);
+  const DashpotStep dashpot_step{h, 0.5 * own.damps.mass * h,
+                                 own.damps.kicks == nullptr ? nullptr : &own.kicks.mass,
+                                 own.drive.reference, own.drive.push};
   const Leap leap = leap_of(sim, h_old, h_new);
   const DashpotScene before{blocks, sim.motion.masses, state, own.old_vx, own.old_vy};
   const BoundarySprings& springs = sim.attached.springs;
@@ -136,7 +146,7 @@ void start_leapfrog(Simulation& sim) {
   own.drive = dashpot_drive(sim, {}, sim.attached.free_field.columns);
   add_dashpots(forces, sim.motion.on_dashpots, sim.attached.dashpots,
                {blocks, sim.motion.masses, state, state.vx, state.vy},
-               {0.0, 0.0, own.drive.reference, own.drive.push}, 0, blocks.size());
+               {0.0, 0.0, nullptr, own.drive.reference, own.drive.push}, 0, blocks.size());
   start_velocities(state, blocks, sim.motion.masses, forces.x, forces.y, h,
                    sim.motion.damping.mass_damping());
   look_back();
@@ -200,7 +210,7 @@ void switch_contacts(Simulation& sim, double h_old) {
   if (sim.scene->model.solver.switching == Switching::exact) {
     const StepTaken taken{sim.scene->blocks, motion.masses,   motion.state, motion.pose,
                           own.old_vx,        own.old_vy,      h_old,        motion.state.step,
-                          own.damps.mass,    own.damps.strain};
+                          own.damps.mass,    own.damps.strain, own.damps.kicks};
     if (own.tiled.ahead) {
       switch_in_tiles(sim, taken);
     } else {
@@ -343,13 +353,14 @@ void look_leapfrog(const Simulation& sim, Instant& at) {
   const double h = state.step;
   at.on_dashpots = sim.motion.on_dashpots;
   StrainDamping strain;
-  const StepDamping damping = step_damping(sim, strain);
-  const double half_mass_damping = 0.5 * damping.mass * h;
-  if (damping.strain != nullptr) prepare(strain, blocks, masses, h / (1.0 + half_mass_damping));
+  BlockKicks kicks;
+  const StepDamping damping = step_damping(sim, h, strain, kicks);
   const Vec2 ground = ground_velocity(sim);
   const DashpotDrive drive = dashpot_drive(sim, ground, next_free_field(sim, ground, h, h));
   add_dashpots(at.forces, at.on_dashpots, dashpots, {blocks, masses, state, state.vx, state.vy},
-               {h, half_mass_damping, drive.reference, drive.push}, 0, blocks.size());
+               {h, 0.5 * damping.mass * h, damping.kicks == nullptr ? nullptr : &kicks.mass,
+                drive.reference, drive.push},
+               0, blocks.size());
   advance(at.state,
           {blocks, masses, at.forces.x, at.forces.y, at.state.vx, at.state.vy, h, h, damping});
   at.state.x = state.x;
@@ -365,7 +376,7 @@ void look_leapfrog(const Simulation& sim, Instant& at) {
 /// frequency w of the motion of the model (FrequencyEstimate).
 double remaining_travel_of_leapfrog(const Simulation& sim, std::size_t i, double force) {
   const State& state = sim.motion.state;
-  const double w = sim.relaxation.estimate.frequency;
+  const double w = sim.relaxation.estimate.frequency_of(i);
   const double speed = norm(centroid(state.vx, state.vy, i));
   if (speed == 0.0 && force == 0.0) return 0.0;
   if (w == 0.0) return std::numeric_limits<double>::infinity();

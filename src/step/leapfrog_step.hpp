@@ -26,6 +26,7 @@ struct LeapfrogStep {
   FaceSwitchingScratch switching;
   TiledFaces tiled;
   StrainDamping strain_damping;
+  BlockKicks kicks;   ///< of adaptive damping, block by block
   StepDamping damps;  ///< damping in force in the step
 };
 

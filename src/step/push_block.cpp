@@ -9,7 +9,7 @@ double push_block(const StepTaken& taken, Id i, const NodeVectors& force) {
   const BlockSet& b = taken.blocks;
   State& s = taken.state;
   if (b.fixed[i]) return 0.0;
-  NodeVectors dv = taken.kick * accelerations(taken.masses, i, force);
+  NodeVectors dv = taken.kick_of(i) * accelerations(taken.masses, i, force);
   if (taken.strain != nullptr) {
     const StepsAround step{taken.old_vx, taken.old_vy, taken.h_old, taken.h_new};
     dv = damped_change(*taken.strain, b, taken.masses, s, step, i, dv);

@@ -4,6 +4,7 @@
 #include "blocks/masses.hpp"
 #include "blocks/pose.hpp"
 #include "blocks/state.hpp"
+#include "integrate/kick.hpp"
 #include "integrate/strain_damping.hpp"
 
 namespace edda {
@@ -24,7 +25,9 @@ struct StepTaken {
   const Nodes &old_vx, &old_vy;  ///< velocities before the step, m/s
   double h_old = 0.0, h_new = 0.0, mass_damping = 0.0;
   StrainDamping* strain = nullptr;
+  const BlockKicks* kicks = nullptr;                             ///< as StepDamping::kicks
   double kick = kick_over(0.5 * (h_old + h_new), mass_damping);  ///< s
+  double kick_of(std::size_t i) const { return kicks == nullptr ? kick : kicks->h[i]; }
 };
 
 /// Moves block i as the step would have with these additional nodal forces (N): changes its

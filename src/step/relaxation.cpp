@@ -76,16 +76,6 @@ std::uint64_t steps_between_looks(const FrequencyEstimate& estimate, double h) {
   return static_cast<std::uint64_t>(std::clamp(wanted, least, most));
 }
 
-/// Free blocks that touch nothing.
-std::vector<Id> blocks_in_flight(const Simulation& sim, const std::vector<std::uint8_t>& touch) {
-  std::vector<Id> fly;
-  for (std::size_t i = 0; i < touch.size(); ++i) {
-    if (touch[i] == 0 && is_free(sim.scene->blocks, sim.motion.state, i))
-      fly.push_back(static_cast<Id>(i));
-  }
-  return fly;
-}
-
 /// [nb] 1: counts in the frequency estimate, of blocks that `touch` something. A block that falls
 /// or slides away has no stiffness and moves further than all others together.
 std::vector<std::uint8_t> counts_in_frequency(const Simulation& sim,
@@ -145,6 +135,24 @@ std::optional<double> square_of_frequency(const Quotient& sum, double most_of_on
   return std::max(stiffness / inertia, 0.0);
 }
 
+/// Updates w of each block, from -dx . df/dx . M dx of its own motion: in a mode of vibration it is
+/// that of the mode for every block; a block that slides or falls has none, whatever the others do,
+/// and damping does not hold it. Half of the previous square remains. What flies is not damped.
+void update_frequencies_of_blocks(Simulation& sim, const Quotient& sum,
+                                  const std::vector<std::uint8_t>& touch) {
+  std::vector<double>& w = sim.relaxation.estimate.of_block;
+  const bool first = w.empty();
+  w.resize(touch.size(), 0.0);
+  for (std::size_t i = 0; i < w.size(); ++i) {
+    if (touch[i] == 0) {
+      w[i] = 0.0;
+    } else if (sum.inertia[i] > 0.0) {
+      const double now = std::max(sum.stiffness[i] / sum.inertia[i], 0.0);
+      w[i] = first ? std::sqrt(now) : std::sqrt(0.5 * (w[i] * w[i] + now));
+    }
+  }
+}
+
 /// Updates the frequency estimate where that is due.
 void update_estimate(Simulation& sim, const LoadsNow& at_work) {
   const std::size_t nb = sim.scene->blocks.size();
@@ -157,19 +165,21 @@ void update_estimate(Simulation& sim, const LoadsNow& at_work) {
       *nodes = zero_nodes(nb);
     }
   }
-  std::vector<std::uint8_t> touch = touching(sim);
-  sim.relaxation.in_flight = blocks_in_flight(sim, touch);
-  const std::vector<std::uint8_t> stays = counts_in_frequency(sim, std::move(touch));
+  const std::vector<std::uint8_t> touch = touching(sim);
+  const std::vector<std::uint8_t> stays = counts_in_frequency(sim, touch);
   const bool none_stays =
       std::none_of(stays.begin(), stays.end(), [](std::uint8_t stay) { return stay != 0; });
   Quotient sum{std::vector<double>(nb, 0.0), std::vector<double>(nb, 0.0)};
   parallel_for(nb, [&](std::size_t i) {
-    const bool counts = stays[i] != 0 || (none_stays && is_free(sim.scene->blocks, state, i));
-    look_at_block(sim, at_work, i, counts, sum);
+    look_at_block(sim, at_work, i, is_free(sim.scene->blocks, state, i), sum);
   });
   estimate.since = state.steps;
   if (first) return;
+  update_frequencies_of_blocks(sim, sum, touch);
   // Once all else is in balance, the blocks that still move determine the frequency.
+  for (std::size_t i = 0; i < nb && !none_stays; ++i) {
+    if (stays[i] == 0) sum.stiffness[i] = sum.inertia[i] = 0.0;
+  }
   const double most_of_one =
       sim.relaxation.balanced ? std::numeric_limits<double>::infinity() : largest_part(sum.inertia);
   const std::optional<double> now = square_of_frequency(sum, most_of_one);
@@ -272,17 +282,35 @@ void hold_joints(Simulation& sim) {
 
 }  // namespace
 
-double mass_damping(const Simulation& sim) {
+namespace {
+
+/// The largest coefficient of adaptive damping, 1/s. Blocks follow supports by a small part of their
+/// weight, which damping must not take from them: at the largest velocity of a support, 1.5 d/T,
+/// this is the force that accelerates them, 6 d/T^2.
+double most_adaptive(const Simulation& sim) {
+  const double time = sim.attached.loads.gradual.time_of_supports();
+  return time > 0.0 ? 4.0 / time : std::numeric_limits<double>::infinity();
+}
+
+/// At more than 1/h velocities would change sign.
+double with_adaptive(const Simulation& sim, double frequency, double most) {
   const Damping& damping = sim.motion.damping;
-  if (damping.adaptive == 0.0) return damping.mass_damping();
-  double adaptive = 2.0 * damping.adaptive * sim.relaxation.estimate.frequency;
-  // Blocks follow supports by a small part of their weight, which damping must not take from them:
-  // at the largest velocity of a support, 1.5 d/T, this is the force that accelerates them, 6
-  // d/T^2.
-  if (const double time = sim.attached.loads.gradual.time_of_supports(); time > 0.0)
-    adaptive = std::min(adaptive, 4.0 / time);
-  // At more than 1/h velocities would change sign.
+  const double adaptive = std::min(2.0 * damping.adaptive * frequency, most);
   return std::min(damping.mass_damping() + adaptive, 1.0 / sim.motion.state.step);
+}
+
+}  // namespace
+
+double mass_damping(const Simulation& sim) {
+  if (sim.motion.damping.adaptive == 0.0) return sim.motion.damping.mass_damping();
+  return with_adaptive(sim, sim.relaxation.estimate.frequency, most_adaptive(sim));
+}
+
+void mass_damping_of_blocks(const Simulation& sim, std::vector<double>& damping) {
+  const double most = most_adaptive(sim);
+  damping.resize(sim.scene->blocks.size());
+  for (std::size_t i = 0; i < damping.size(); ++i)
+    damping[i] = with_adaptive(sim, sim.relaxation.estimate.frequency_of(i), most);
 }
 
 void begin_gradually(Simulation& sim, const std::vector<double>& strength_factors, bool more) {

@@ -17,7 +17,8 @@ struct Simulation;
 /// a radian of the motion. Over that many steps fast vibrations hardly count; from step to step
 /// they would dominate the slow motion that has furthest to go.
 struct FrequencyEstimate {
-  double frequency = 0.0;   ///< 1/s; 0: not yet known
+  double frequency = 0.0;   ///< 1/s, of the whole model; 0: not yet known
+  std::vector<double> of_block;  ///< [nb] 1/s, of each block; empty: not yet known
   double least = 0.0;       ///< 1/s: half of the frequency when the last change began
   std::uint64_t since = 0;  ///< step at which the following were recorded
   Nodes x, y;               ///< [nodes][nb] positions then, m; empty: none yet
@@ -26,6 +27,7 @@ struct FrequencyEstimate {
   /// Frequency by which gradual changes proceed, 1/s: blocks that slide away lower the frequency,
   /// but do not stop these.
   double clock() const { return frequency > least ? frequency : least; }
+  double frequency_of(std::size_t i) const { return of_block.empty() ? frequency : of_block[i]; }
 };
 
 struct Relaxation {
@@ -35,8 +37,6 @@ struct Relaxation {
   FrequencyEstimate estimate;       ///< while it seeks equilibrium
   std::vector<std::uint8_t> loose;  ///< [nb] 1: does not count in it, since the block falls or
                                     ///< slides away; empty: none
-  std::vector<Id> in_flight;  ///< free blocks without contact when the frequency was estimated
-                              ///< last, ascending: adaptive damping would hold them in the air
   std::vector<double> strength_from, strength_to;  ///< [laws] strength factors while strength
                                                    ///< changes gradually
   /// At the very start joints neither slide nor break while the first loads come on, and later
@@ -45,8 +45,11 @@ struct Relaxation {
   enum class Hold : std::uint8_t { over, loading, settling } hold = Hold::over;
 };
 
-/// Coefficient of mass-proportional damping at present, adaptive damping included, 1/s.
+/// Coefficient of mass-proportional damping at present, 1/s, with adaptive damping at the frequency
+/// of the whole model.
 double mass_damping(const Simulation& sim);
+/// The same of each block, [nb], with adaptive damping at its own frequency.
+void mass_damping_of_blocks(const Simulation& sim, std::vector<double>& damping);
 
 /// Applies gradually, over about a period of the motion, what begins or ends to act now, and this
 /// change of strength; at the very start also the weight, where the ground has no initial stress.
