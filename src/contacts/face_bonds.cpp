@@ -144,8 +144,8 @@ void account_failure_energy(FaceSet& c, double lost, std::size_t k) {
   c.transfer[k] += std::min(lost, 0.0);
 }
 
-void glue_faces(FaceSet& c) {
-  c.gluing = true;
+void glue_faces(FaceSet& c, bool also_later) {
+  c.gluing = also_later;
   for (std::size_t k = 0; k < c.size(); ++k) {
     if (meets_within(c, c.noise, k) && c.glued[k] == 0.0) glue_for_now(c, k);
   }

@@ -58,7 +58,7 @@ void account_failure_energy(FaceSet& faces, double lost, std::size_t k);
 
 /// glue_faces: joints that touch neither open nor slide from now on. unglue_faces gives them back
 /// the state they had before; tension that is then released is accounted as fracture energy.
-void glue_faces(FaceSet& faces);
+void glue_faces(FaceSet& faces, bool also_later = true);
 void unglue_faces(FaceSet& faces, const BlockSet& blocks, const Pose& pose);
 /// In a stage that glues its joints: glues what has come into contact since, once it has been
 /// pressed for a whole step.

@@ -137,11 +137,15 @@ std::vector<std::uint8_t> blocks_at_rest(const Simulation& sim, const SlowingDow
     if (!is_free(b, s, i)) continue;
     const double most = rest_part * size_of(sim, i);
     const double force = force_on(sim, i, rounding[i]);
+    const double own = acceleration_on(sim, acting, i);
+    const double weight = b.mass[i] * (own > 0.0 ? own : usual_acceleration);
     const bool stiff = sim.stepper->remaining_travel(sim, i, force) <= most;
-    if (stiff && (slowing == nullptr || slowing->to_come(i) <= most)) continue;
+    if (stiff && (slowing == nullptr ||
+                  (slowing->to_come(i) <= most && force <= balanced_part * weight)))
+      continue;
     const double speed = norm(centroid(s.vx, s.vy, i)) *
                          std::sqrt(inertia_of(sim.motion.masses, i) / b.mass[i]);
-    const double time = rest_time(size_of(sim, i), acceleration_on(sim, acting, i));
+    const double time = rest_time(size_of(sim, i), own);
     const double travel = speed * time + 0.5 * force / b.mass[i] * time * time;
     rest[i] = slowing != nullptr && travel <= most ? 1 : 0;
   }

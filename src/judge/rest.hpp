@@ -8,8 +8,9 @@
 
 namespace edda {
 
-/// At rest a block would move no further than this part of its size.
-inline constexpr double rest_part = 1e-4;
+/// At rest a block would move no further than this part of its size, and the forces on it balance to
+/// this part of its weight.
+inline constexpr double rest_part = 1e-4, balanced_part = 1e-3;
 
 /// Time within which a block at rest would move no further, s: T = 5 sqrt(L/a), in which it would
 /// fall by twelve times its size L (m) under the acceleration a (m/s2) that acts on it.
@@ -72,7 +73,7 @@ void SlowingDown::list(Archive& a) {
 /// on it, less their rounding, it would move by no more than rest_part of its size L if nothing held
 /// it, v T + R/m T^2/2 with T = rest_time(L, a), m its true mass, and v that of the same kinetic
 /// energy with this mass; or against the stiffness of its motion (Stepper::remaining_travel), if it
-/// is also seen to slow down before that. `slowing`: null where only the latter counts.
+/// is also seen to slow down before that and R is at most balanced_part of its weight. `slowing`: null where only the latter counts.
 std::vector<std::uint8_t> blocks_at_rest(const Simulation& sim, const SlowingDown* slowing);
 
 }  // namespace edda

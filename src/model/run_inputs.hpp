@@ -88,6 +88,7 @@ struct Stage {
   StageEnd until = StageEnd::time;
   double ratio = 1e-5;     ///< criterion of equilibrium: mean resultant over mean contact force
   double duration = 10.0;  ///< s; until equilibrium: at most
+  bool may_last = false;   ///< no duration is given: it may take as many steps as a search (most_steps)
   static constexpr double crossings = 200.0;  ///< of the model by waves, in the least default of it
   bool to_equilibrium() const { return until != StageEnd::time; }
   /// s, the longest that the whole stage may take; of a ramp `duration` for each value.

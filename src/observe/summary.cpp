@@ -23,6 +23,7 @@ namespace {
 
 constexpr std::string_view fall_check = "number of blocks that fell freely under local damping";
 constexpr std::string_view loose_check = "number of blocks that have come loose";
+constexpr std::string_view aside_check = "number of blocks that were set aside";
 constexpr std::string_view stage_check = "number of stages that found no equilibrium";
 constexpr std::string_view broken_check = "number of joints that broke where gravity acted at once";
 constexpr std::string_view overlap_check = "largest overlap over half width of a block";
@@ -174,6 +175,8 @@ std::vector<Check> checks_of(const Simulation& sim, const Outcome& o) {
     checks.push_back(limited(std::string(chatter_check), static_cast<double>(o.chatter.count),
                              chatter_limit + chatter_limit_of_block * free));
   }
+  if (const std::size_t aside = sim.accounts.set_aside.size(); aside > 0)
+    checks.push_back(limited(std::string(aside_check), static_cast<double>(aside), 0.0));
   if (o.slowed_in_fall > 0) {
     checks.push_back(limited(std::string(fall_check), static_cast<double>(o.slowed_in_fall), 0.0));
   }
@@ -245,6 +248,15 @@ std::string message_of(const Check& check, const Simulation& sim, const Outcome&
         "a toe, or a gap between blocks as drawn has closed: see edda limit",
         *o.rigid_factor);
   }
+  if (check.name == aside_check) {
+    const SetAside& first = sim.accounts.set_aside.front();
+    text += fmt::format(
+        ": {} at {}, t = {:.6g} s, sank into others by more than half its size and was taken out, "
+        "so that the others go on; for blocks as small the contacts are too soft: raise "
+        "contact.normal_stiffness (or the joint's kn), or join slivers to their neighbours with "
+        "[quality]",
+        block_label(sim.scene->blocks, first.block), place_label(first.place), first.time);
+  }
   if (check.name == loose_check) {
     text += ": the given strength is not enough to hold them; edda fos finds the factor of safety";
   }
@@ -285,6 +297,13 @@ std::string summary_json(const Simulation& sim, const Outcome& o, const std::str
   add_overlap(j, o.overlap);
   add_energy(j, o.energy);
   add_wall(j, o.wall);
+  j.key("set_aside").open_list();
+  for (const SetAside& s : sim.accounts.set_aside) {
+    j.open_object().pair("block", std::size_t{s.block}).pair("time", s.time);
+    j.key("at").open_list().value(s.place.x).value(s.place.y).close();
+    j.pair("area", sim.scene->blocks.area[s.block]).close();
+  }
+  j.close();
   const double work = static_cast<double>(sim.scene->blocks.size()) * static_cast<double>(o.steps);
   j.pair("block_steps_per_second", o.wall.stepping > 0.0 ? work / o.wall.stepping : 0.0);
   j.pair("threads", omp_get_max_threads());

@@ -80,6 +80,7 @@ class Driver {
   Arrival step_to(double time);
   // Stages (run/driver_stages.cpp).
   void begin_stage(std::size_t index);
+  double longest_of_stage() const;
   const Stage& stage() const { return plans_[stage_].stage; }
   /// Result for the present stage; not_yet where it does not end at an equilibrium.
   Equilibrium look_for_equilibrium();
@@ -139,6 +140,7 @@ class Driver {
   std::vector<StagePlan> plans_;
   std::size_t stage_ = 0;                ///< present stage
   double stage_start_ = 0.0;             ///< s
+  double stage_longest_ = 0.0;           ///< s, that it may last
   std::uint64_t stage_steps_ = 0;        ///< steps made before it
   Judge judge_;                          ///< of the present stage
   RampProgress ramp_;                    ///< of the present stage, if it has a ramp

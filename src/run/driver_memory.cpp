@@ -171,6 +171,7 @@ void Driver::list_stages(Archive& a) {
   a("stage.index", stage_);
   a("stage.start", stage_start_);
   a("stage.steps", stage_steps_);
+  a("stage.longest", stage_longest_);
   judge_.list(a);
   if constexpr (Archive::loads) {
     if (!judge_.fits(sim_)) return a.refuse("what the judge remembers does not fit the model");
@@ -183,7 +184,7 @@ void Driver::list_stages(Archive& a) {
       return;
     }
     ends_.resize(stage_ + (stage_has_ended_ ? 1 : 0));
-    times_.end_at(stage_start_ + stage().longest());
+    times_.end_at(stage_start_ + stage_longest_);
   }
   for (std::size_t q = 0; q < ends_.size(); ++q) {
     const std::string of = fmt::format("stage.{}.", q);

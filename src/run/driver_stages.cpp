@@ -26,6 +26,14 @@ void Driver::begin_stage(std::size_t index) {
   if (const auto fault = enter_stage(sim_, plans_[index], index == 0)) {
     end(Status::failed, stage_label(sim_.scene->model, stage_) + ": " + fault->problem);
   }
+  stage_longest_ = longest_of_stage();
+  times_.end_at(stage_start_ + stage_longest_);
+}
+
+/// A search for equilibrium has its own time: where masses are scaled, steps alone tell its length.
+double Driver::longest_of_stage() const {
+  const double longest = stage().longest();
+  return stage().may_last ? std::max(longest, most_steps * sim_.control.limit) : longest;
 }
 
 Driver::Equilibrium Driver::look_for_equilibrium() {
@@ -101,7 +109,7 @@ bool Driver::end_stage(Arrival went) {
     ++outcome_.unsettled;
     const std::string not_found = fmt::format(
         "{} is not in equilibrium after {:.6g} s, the longest that it may last{}: {}{}", label,
-        now.longest(), now.ramp ? ", at " + ramp_at(ramp_.increment) : "",
+        stage_longest_, now.ramp ? ", at " + ramp_at(ramp_.increment) : "",
         still_moving(sim_, ends_.back().balance), not_in_equilibrium());
     if (last || now.ramp || now.otherwise == LooseBlocks::stop) {
       end(now.otherwise == LooseBlocks::stop ? Status::collapsed : Status::completed, not_found);

@@ -103,6 +103,20 @@ void list_counts(Archive& a, Simulation& s) {
   a("seconds.integrate", s.accounts.seconds.integrate);
   a("start_energy", s.accounts.start_energy);
   a("largest_energy", s.accounts.largest_energy);
+  std::vector<SetAside>& aside = s.accounts.set_aside;
+  std::size_t count = aside.size();
+  a("set_aside.count", count);
+  if constexpr (Archive::loads) aside.resize(std::min(count, s.scene->blocks.size()));
+  for (std::size_t q = 0; q < aside.size(); ++q) {
+    const std::string of = "set_aside." + std::to_string(q) + ".";
+    a(of + "block", aside[q].block);
+    a(of + "time", aside[q].time);
+    a(of + "x", aside[q].place.x);
+    a(of + "y", aside[q].place.y);
+    if constexpr (Archive::loads) {
+      if (aside[q].block >= s.scene->blocks.size()) return a.refuse("set_aside is out of range");
+    }
+  }
 }
 
 /// Records the first value that would lead out of an array or is not finite.
@@ -218,6 +232,7 @@ void list_memory(Archive& a, Simulation& s) {
   a("strength_from", s.relaxation.strength_from);
   a("strength_to", s.relaxation.strength_to);
   a("hold", s.relaxation.hold);
+  a("holds_together", s.relaxation.holds_together);
   a("larger_allowed_since", s.control.larger_allowed_since);
   a("target", s.control.target);
   a("nominal_step", s.control.nominal);

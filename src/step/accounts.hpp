@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <vector>
 
 #include "integrate/leapfrog.hpp"
 #include "step/face_switching.hpp"
@@ -18,6 +19,13 @@ struct StepStatistics {
   std::uint64_t redone = 0;    ///< steps repeated with half the step ("step cuts")
 };
 
+/// A block that could not be stepped any further and was taken out of the model.
+struct SetAside {
+  Id block = no_id;
+  double time = 0.0;  ///< s
+  Vec2 place;         ///< m, model coordinates
+};
+
 struct Accounts {
   DampingWork damping_work;
   double step_change_energy = 0.0;  ///< J, created by changes of the step
@@ -29,6 +37,7 @@ struct Accounts {
   std::optional<InitialBalance> initial;  ///< of the initial stress, as created; empty without one
   StepStatistics steps;
   OpenCloseCounts open_close;  ///< iterations of an implicit step count as passes
+  std::vector<SetAside> set_aside;
   StageSeconds seconds;        ///< sampled; only their ratios are meaningful
 };
 

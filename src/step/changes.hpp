@@ -9,6 +9,7 @@
 #include "base/fault.hpp"
 #include "blocks/kinematics.hpp"
 #include "model/stage_names.hpp"
+#include "step/divergence.hpp"
 
 namespace edda {
 
@@ -30,6 +31,11 @@ void take_strength_factors(Simulation& sim, const std::vector<double>& factors);
 /// Removes the rock of these openings (rows of Model::openings). The forces that it had on the
 /// walls become loads, which keep their full value until relax() reduces them.
 void excavate(Simulation& sim, const std::vector<Index>& openings);
+
+/// Takes out a block whose trouble is its own (Failure::of_block), so that the others go on, and
+/// enters it in Accounts::set_aside. False: with those taken out before it is more than a tenth of
+/// all rock, so that the model itself is in trouble; nothing is changed then.
+bool set_aside(Simulation& sim, const Failure& failure);
 /// Releases `part` (0 to 1) of the forces that the rock of an opening had on its walls.
 void relax(Simulation& sim, Index opening, double part);
 /// Adds these forces to the loads.

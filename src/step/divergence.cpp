@@ -50,6 +50,7 @@ Failure overlap_failure(Id one, Id other, double depth, Vec2 place, const BlockS
   Failure f;
   f.time = s.time;
   f.block = i;
+  f.of_block = b.fixed[i] == 0 && step.step <= step.critical;
   f.place = place + b.origin;
   f.message = fmt::format(
       "{} is {:.3g} m inside {}, more than half the size of the smaller: {}", block_label(b, i),

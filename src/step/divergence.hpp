@@ -21,6 +21,7 @@ struct Failure {
   Id block = no_id;
   Vec2 place;         ///< model coordinates
   double time = 0.0;  ///< s
+  bool of_block = false;  ///< it is the trouble of this block alone: it sinks too deep into others
 };
 
 /// The step and the critical step, which the message compares to name the cause.

@@ -31,6 +31,28 @@ std::vector<WallForce> wall_forces(const BlockSet& b, const FaceSet& f,
 
 }  // namespace
 
+bool set_aside(Simulation& sim, const Failure& failure) {
+  constexpr double most = 0.1;  // of the area of all blocks
+  if (!failure.of_block) return false;
+  const BlockSet& blocks = sim.scene->blocks;
+  State& state = sim.motion.state;
+  double all = 0.0, out = blocks.area[failure.block];
+  for (std::size_t i = 0; i < blocks.size(); ++i) all += state.alive[i] != 0 ? blocks.area[i] : 0.0;
+  for (const SetAside& before : sim.accounts.set_aside) {
+    out += blocks.area[before.block];
+    all += blocks.area[before.block];
+  }
+  if (out > most * all) return false;
+  const double energy = total_energy(sim);
+  faces_to_change(sim);
+  state.alive[failure.block] = 0;
+  store({}, state.vx, state.vy, failure.block);
+  search(sim, {sim.motion.contacts.reach, sim.motion.contacts.reach_behind});
+  sim.accounts.external_work += total_energy(sim) - energy;
+  sim.accounts.set_aside.push_back({failure.block, failure.time, failure.place});
+  return true;
+}
+
 void excavate(Simulation& sim, const std::vector<Index>& openings) {
   const BlockSet& blocks = sim.scene->blocks;
   State& state = sim.motion.state;

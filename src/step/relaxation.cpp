@@ -11,6 +11,8 @@
 #include "contacts/approach.hpp"
 #include "contacts/face_bonds.hpp"
 #include "step/changes.hpp"
+#include "step/contact_search.hpp"
+#include "step/force_jumps.hpp"
 #include "step/simulation.hpp"
 #include "step/touching.hpp"
 
@@ -206,6 +208,17 @@ void change_strength(Simulation& sim, double part) {
   take_strength_factors(sim, now);
 }
 
+/// Lets joints that neither opened nor slid meanwhile do so.
+void let_open(Simulation& sim) {
+  if (!sim.relaxation.holds_together) return;
+  sim.relaxation.holds_together = false;
+  FaceSet& faces = faces_to_change(sim);
+  const NodalForces before = forces_now(sim);
+  unglue_faces(faces, sim.scene->blocks, sim.motion.pose);
+  reevaluate_faces(sim);
+  note_jump(sim, before);
+}
+
 /// Increases what is applied gradually, in proportion to the frequency estimate: all of it within
 /// one period, more slowly where inertia has been raised, since such blocks follow more slowly than
 /// their neighbours. After the loads the model settles (`part` is below 0 meanwhile) before joints
@@ -214,7 +227,7 @@ void change_strength(Simulation& sim, double part) {
 void advance_gradual_change(Simulation& sim) {
   Relaxation& relaxation = sim.relaxation;
   if (gradual_change_complete(sim)) return;
-  constexpr double settling = 1.0, settling_with_bonds = 5.0, increments = 100.0;
+  constexpr double settling = 1.0, at_most = 5.0, increments = 100.0;
   constexpr double slower_with_bonds = 4.0;  // what breaks must not be thrown out
   // Before anything has moved, the frequency of the wave is used.
   const double frequency =
@@ -228,12 +241,19 @@ void advance_gradual_change(Simulation& sim) {
   const bool with_bonds = sim.motion.contacts.bond_strength > 1.0;
   const double slower = with_bonds && before >= 0.0 && !loading ? slower_with_bonds : 1.0;
   gradual.part += sim.motion.state.step / std::max(slower * period, gradual.least);
-  if (with_bonds && before < 0.0 && relaxation.balanced) gradual.part = std::max(gradual.part, 0.0);
+  if ((with_bonds || relaxation.holds_together) && before < 0.0 && relaxation.balanced)
+    gradual.part = std::max(gradual.part, 0.0);
+  if (before < 0.0 && gradual.part >= 0.0 && relaxation.holds_together) {
+    let_open(sim);
+    relaxation.balanced = false;
+    gradual.part = with_bonds ? -at_most : -settling;
+    return;
+  }
   const bool strength = !relaxation.strength_to.empty() && !loading;
   if (before < 0.0 && gradual.part >= 0.0) relaxation.estimate.least = 0.5 * frequency;
   if (gradual.part >= 1.0 && loading) {
     constexpr double no_time = std::numeric_limits<double>::quiet_NaN();  // nothing else began then
-    gradual = {no_time, with_bonds ? -settling_with_bonds : -settling, false, 0.0};
+    gradual = {no_time, with_bonds || relaxation.holds_together ? -at_most : -settling, false, 0.0};
     relaxation.balanced = false;
     relaxation.hold = Relaxation::Hold::settling;
     relaxation.estimate.least = 0.05 * frequency;  // also where all that moves falls
@@ -323,6 +343,12 @@ void begin_gradually(Simulation& sim, const std::vector<double>& strength_factor
     const bool weight = !sim.scene->model.initial_stress;
     if (!weight && least == 0.0) return set_strength_factors(sim, strength_factors);
     hold_joints(sim);
+    FaceSet& faces = faces_to_change(sim);
+    relaxation.holds_together = weight && !faces.gluing;
+    if (relaxation.holds_together) {
+      glue_faces(faces, false);
+      reevaluate_faces(sim);
+    }
     constexpr double periods = 1.0;  // on joints that hold
     loads.gradual = {state.time, 0.0, weight, weight ? 2.0 * least : least, periods};
     relaxation.strength_from = relaxation.strength_to = strength_factors;
@@ -351,6 +377,7 @@ void begin_gradually(Simulation& sim, const std::vector<double>& strength_factor
 void end_hold(Simulation& sim) {
   if (sim.relaxation.hold == Relaxation::Hold::over) return;
   sim.relaxation.hold = Relaxation::Hold::over;
+  let_open(sim);
   sim.motion.contacts.bond_strength = 1.0;
   if (sim.attached.loads.gradual.part < 0.0) sim.attached.loads.gradual = {};
   set_strength_factors(sim, sim.relaxation.strength_to);

@@ -27,7 +27,11 @@ struct FrequencyEstimate {
   /// Frequency by which gradual changes proceed, 1/s: blocks that slide away lower the frequency,
   /// but do not stop these.
   double clock() const { return frequency > least ? frequency : least; }
-  double frequency_of(std::size_t i) const { return of_block.empty() ? frequency : of_block[i]; }
+  /// That of a block, which is damped no more than the model is: the fast motion of a block beside
+  /// others must not keep it from following them.
+  double frequency_of(std::size_t i) const {
+    return of_block.empty() || of_block[i] > frequency ? frequency : of_block[i];
+  }
 };
 
 struct Relaxation {
@@ -39,10 +43,12 @@ struct Relaxation {
                                     ///< slides away; empty: none
   std::vector<double> strength_from, strength_to;  ///< [laws] strength factors while strength
                                                    ///< changes gradually
-  /// At the very start joints neither slide nor break while the first loads come on, and later
-  /// bonds do not break while a stage's loads do; then the model settles, and they come down to
-  /// their strength.
+  /// At the very start joints neither open nor slide nor break while the first loads come on, so
+  /// that small blocks follow large ones as these settle, and later bonds do not break while a
+  /// stage's loads do; then the model settles, joints may open, and they come down to their
+  /// strength.
   enum class Hold : std::uint8_t { over, loading, settling } hold = Hold::over;
+  bool holds_together = false;  ///< joints do not open meanwhile
 };
 
 /// Coefficient of mass-proportional damping at present, 1/s, with adaptive damping at the frequency

@@ -14,7 +14,8 @@ struct Simulation;
 /// velocities to the instant at which the method has them. Call once, before the first step().
 void start(Simulation& sim, double first_event);
 
-/// One step of the method: forces, motion, contacts, contact activation, contact search.
+/// One step of the method: forces, motion, contacts, contact activation, contact search. A block
+/// whose trouble is its own is set aside (step/changes.hpp).
 std::optional<Failure> step(Simulation& sim);
 
 /// The same, except that the rows of the faces, Motion::contacts, may be behind afterwards, which

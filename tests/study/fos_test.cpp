@@ -212,8 +212,8 @@ TEST(Fos, SaysThatABracketMayLookBeyond) {
 /// Where nothing acts the reported acceleration is that from which T follows.
 TEST(Fos, TellsTheAccelerationThatItUses) {
   const FosResult r = found("gravity = [0, 0]\n" + ramp(rough, coarse, ""));
-  EXPECT_EQ(r.criterion.acceleration, 9.81);
-  EXPECT_NEAR(r.criterion.duration, 5.0 * std::sqrt(std::sqrt(2.0) / 9.81), 1e-5);
+  EXPECT_EQ(r.acceleration, 9.81);
+  EXPECT_NEAR(r.duration, 5.0 * std::sqrt(std::sqrt(2.0) / 9.81), 1e-5);
 }
 
 /// A model that does not stand as given has a factor below 1.

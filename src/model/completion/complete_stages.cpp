@@ -311,6 +311,7 @@ void complete_stages(const Value& root, Reading& reading) {
     complete_ramp(own, stage, reading);
     if ((stage.ramp || stage.to_equilibrium()) && !given(own, "duration")) {
       stage.duration = longest_by_default(model, stage);
+      stage.may_last = !stage.ramp;
     }
     complete_stage_damping(own, solver, stage);
     check_ramp_damping(own, stage, reading);

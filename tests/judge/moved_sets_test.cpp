@@ -1,0 +1,139 @@
+// How far blocks have moved as seen from those beside them.
+#include "judge/moved_sets.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+#include "run/prepared.hpp"
+
+namespace edda {
+namespace {
+
+const std::string rock = R"(
+[materials.rock]
+density = 2500
+young = 1e9
+poisson = 0.2
+[joints.j]
+friction_angle = 30
+[solver]
+duration = 1
+)";
+
+std::string block(const std::string& name, double x, double y, double width, double height,
+                  const std::string& more = {}) {
+  const auto n = [](double v) { return std::to_string(v); };
+  return "[[block]]\nname = '" + name + "'\n" + more + "polygon = [[" + n(x) + ", " + n(y) + "], [" +
+         n(x + width) + ", " + n(y) + "], [" + n(x + width) + ", " + n(y + height) + "], [" + n(x) +
+         ", " + n(y + height) + "]]\n";
+}
+
+Simulation model(const std::string& blocks) {
+  return testing::prepared(rock + blocks).sim;
+}
+
+/// The block of this name as the cut numbers it.
+Id id_of(const Simulation& sim, const std::string& name) {
+  const BlockSet& b = sim.scene->blocks;
+  for (Id i = 0; i < b.size(); ++i) {
+    if (b.name(i) == name) return i;
+  }
+  ADD_FAILURE() << name;
+  return 0;
+}
+
+/// Moves a block by `by` after it has turned about `about`, counter-clockwise (rad).
+void move(Simulation& sim, Id i, Vec2 by, double turn = 0.0, Vec2 about = {}) {
+  State& s = sim.motion.state;
+  NodeVectors x = vectors_of(s.x, s.y, i);
+  const Vec2 local = about - sim.scene->blocks.origin;
+  for (Vec2& of : x) {
+    const Vec2 arm = of - local;
+    of = local + std::cos(turn) * arm + std::sin(turn) * perp(arm) + by;
+  }
+  store(x, s.x, s.y, i);
+}
+
+const std::string ground = block("ground", -10, -10, 20, 10);
+
+TEST(MovedSets, ABlockSlidesOnGroundHoweverLargeAndFreeThatIs) {
+  for (const double size : {20.0, 2000.0}) {
+    for (const char* fixed : {"", "fixed = true\n"}) {
+      Simulation sim =
+          model(block("ground", -size / 2, -size, size, size, fixed) + block("slider", 0, 0, 2, 0.5));
+      const RelativeMotion motion(sim);
+      move(sim, id_of(sim, "slider"), {0.05, 0.0});
+      const std::vector<MovedSet> sets = motion.sets(sim, 0.01);
+      ASSERT_EQ(sets.size(), 1u) << size << fixed;
+      EXPECT_EQ(sets[0].blocks, std::vector<Id>{id_of(sim, "slider")});
+      EXPECT_NEAR(sets[0].distance, 0.05, 1e-12);
+      EXPECT_NEAR(sets[0].part, 0.05, 1e-12) << "of its size, 1 m";
+      EXPECT_NEAR(sets[0].area, 1.0, 1e-12);
+    }
+  }
+}
+
+TEST(MovedSets, WhatRidesOnGroundThatSettlesTiltsOrTravelsHasNotMoved) {
+  Simulation sim = model(ground + block("lower", 0, 0, 0.5, 0.25) + block("upper", 0, 0.25, 0.5, 0.25));
+  const RelativeMotion motion(sim);
+  for (const char* name : {"ground", "lower", "upper"}) move(sim, id_of(sim, name), {0.3, -0.7}, 0.2);
+  // The ground alone is as large as the model: 0.04 of its size as seen from where it was.
+  for (const MovedSet& set : motion.sets(sim, 0.01)) EXPECT_EQ(set.blocks.size(), 3u);
+}
+
+TEST(MovedSets, WhatMovesTogetherIsOneSetOfTheSizeOfItsLargestBlock) {
+  Simulation sim = model(ground + block("wide", 0, 0, 4, 1) + block("small", 0, 1, 0.5, 0.5));
+  const RelativeMotion motion(sim);
+  for (const char* name : {"wide", "small"}) move(sim, id_of(sim, name), {0.1, 0.0});
+  const std::vector<MovedSet> sets = motion.sets(sim, 0.01);
+  ASSERT_EQ(sets.size(), 1u);
+  EXPECT_EQ(sets[0].blocks.size(), 2u);
+  EXPECT_NEAR(sets[0].part, 0.1 / 2.0, 1e-12);
+}
+
+/// A sliver between two blocks of which one slides by a little: they may have carried it along.
+TEST(MovedSets, ASliverBetweenBlocksThatSlideIsNotWhatMoves) {
+  Simulation sim =
+      model(ground + block("sliver", 0, 0, 0.1, 0.02) + block("slab", 0, 0.02, 4, 1));
+  const RelativeMotion motion(sim);
+  move(sim, id_of(sim, "slab"), {0.01, 0.0});
+  move(sim, id_of(sim, "sliver"), {0.006, 0.0});
+  EXPECT_TRUE(motion.sets(sim, 0.01).empty());
+  move(sim, id_of(sim, "sliver"), {0.5, 0.0});  // by itself
+  const std::vector<MovedSet> sets = motion.sets(sim, 0.01);
+  ASSERT_EQ(sets.size(), 1u);
+  EXPECT_EQ(sets[0].blocks, std::vector<Id>{id_of(sim, "sliver")});
+}
+
+TEST(MovedSets, AColumnThatTurnsAboutItsToeMovesAtItsTop) {
+  Simulation sim = model(ground + block("column", 0, 0, 1, 4));
+  const RelativeMotion motion(sim);
+  const double turn = 0.02;
+  move(sim, id_of(sim, "column"), {}, turn);
+  const std::vector<MovedSet> sets = motion.sets(sim, 0.01);
+  ASSERT_EQ(sets.size(), 1u);
+  EXPECT_NEAR(sets[0].distance, 2.0 * std::sin(0.5 * turn) * std::sqrt(17.0), 1e-9);
+}
+
+TEST(MovedSets, WhatWasInTheAirWasToLand) {
+  Simulation sim = model(block("ground", -10, -10, 20, 10, "fixed = true\n") + block("high", 0, 3, 1, 1));
+  const RelativeMotion motion(sim);
+  move(sim, id_of(sim, "high"), {0.0, -0.5});
+  const std::vector<MovedSet> sets = motion.sets(sim, 0.01);
+  ASSERT_EQ(sets.size(), 1u);
+  EXPECT_NEAR(sets[0].part, 0.05, 1e-12);
+}
+
+TEST(MovedSets, BlocksLeftOutNeitherMoveNorCarryOthers) {
+  Simulation sim = model(ground + block("lower", 0, 0, 1, 1) + block("upper", 0, 1, 1, 1));
+  const RelativeMotion motion(sim);
+  move(sim, id_of(sim, "lower"), {0.5, 0.0});
+  std::vector<std::uint8_t> out(sim.scene->blocks.size(), 0);
+  out[id_of(sim, "lower")] = 1;
+  EXPECT_TRUE(motion.sets(sim, 0.01, out).empty());
+}
+
+}  // namespace
+}  // namespace edda
