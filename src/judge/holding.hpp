@@ -32,8 +32,9 @@ enum class Verdict {
 /// there.
 class Holding {
  public:
+  Holding() = default;
   /// Blocks that are loose already (Relaxation::loose) do not count.
-  Holding(const Simulation& sim, const Criterion& criterion)
+  Holding(Simulation& sim, const Criterion& criterion)
       : criterion_(criterion), judge_(sim, sim.relaxation.loose) {}
 
   /// Call when the change begins to be applied (begin_gradually()).
@@ -51,9 +52,9 @@ class Holding {
   double part() const { return part_; }
   const Criterion& criterion() const { return criterion_; }
   const Judge& judge() const { return judge_; }
-  /// Names every field that a checkpoint contains.
+  /// Names every field that a checkpoint contains, after the prefix `of`.
   template <class Archive>
-  void list(Archive& a);
+  void list(Archive& a, const std::string& of);
 
  private:
   Verdict end(Verdict verdict, std::string reason, Id block = no_id);
@@ -66,11 +67,11 @@ class Holding {
 };
 
 template <class Archive>
-void Holding::list(Archive& a) {
-  a("holding.allowed", criterion_.allowed);
-  a("holding.least_area", criterion_.least_area);
-  a("holding.part", part_);
-  judge_.list(a);
+void Holding::list(Archive& a, const std::string& of) {
+  a(of + "holding.allowed", criterion_.allowed);
+  a(of + "holding.least_area", criterion_.least_area);
+  a(of + "holding.part", part_);
+  judge_.list(a, of);
 }
 
 }  // namespace edda

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "base/text.hpp"
+#include "step/tile_step.hpp"
 #include "step/labels.hpp"
 
 namespace edda {
@@ -17,8 +18,10 @@ constexpr std::uint64_t look_every = 32, find_moved_every = 128;  // steps
 
 }  // namespace
 
-Judge::Judge(const Simulation& sim, std::vector<std::uint8_t> left_out)
-    : left_out_(std::move(left_out)), left_(left_out_), motion_(sim) {
+Judge::Judge(Simulation& sim, std::vector<std::uint8_t> left_out)
+    : left_out_(std::move(left_out)), left_(left_out_) {
+  update_face_rows(sim);
+  motion_ = RelativeMotion(sim);
   begin(sim);
 }
 

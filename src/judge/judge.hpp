@@ -37,7 +37,7 @@ class Judge {
   Judge() = default;
   /// Displacements count from the present state. left_out: [nb] 1: the block has left its place
   /// before and does not count; may be empty.
-  explicit Judge(const Simulation& sim, std::vector<std::uint8_t> left_out = {});
+  explicit Judge(Simulation& sim, std::vector<std::uint8_t> left_out = {});
 
   /// Call when a change begins to be applied (begin_gradually()).
   void begin(const Simulation& sim);
@@ -66,9 +66,9 @@ class Judge {
 
   /// Whether what a checkpoint contained is of this model.
   bool fits(const Simulation& sim) const;
-  /// Names every field that a checkpoint contains.
+  /// Names every field that a checkpoint contains, after the prefix `of`.
   template <class Archive>
-  void list(Archive& a);
+  void list(Archive& a, const std::string& of);
 
  private:
   static constexpr int looks_in_sequence = 3;
@@ -82,23 +82,23 @@ class Judge {
 };
 
 template <class Archive>
-void Judge::list(Archive& a) {
-  a("judge.left_out", left_out_);
-  a("judge.left", left_);
-  a("judge.rests", rests_);
-  a("judge.found", found_in_sequence_);
-  a("judge.at_rest", at_rest_in_sequence_);
-  motion_.list(a);
-  slowing_.list(a);
+void Judge::list(Archive& a, const std::string& of) {
+  a(of + "judge.left_out", left_out_);
+  a(of + "judge.left", left_);
+  a(of + "judge.rests", rests_);
+  a(of + "judge.found", found_in_sequence_);
+  a(of + "judge.at_rest", at_rest_in_sequence_);
+  motion_.list(a, of);
+  slowing_.list(a, of);
   std::size_t sets = moved_.size();
-  a("judge.sets", sets);
+  a(of + "judge.sets", sets);
   if constexpr (Archive::loads) moved_.resize(sets);
   for (std::size_t q = 0; q < moved_.size(); ++q) {
-    const std::string of = "judge.set." + std::to_string(q) + ".";
-    a(of + "blocks", moved_[q].blocks);
-    a(of + "area", moved_[q].area);
-    a(of + "distance", moved_[q].distance);
-    a(of + "part", moved_[q].part);
+    const std::string set = of + "judge.set." + std::to_string(q) + ".";
+    a(set + "blocks", moved_[q].blocks);
+    a(set + "area", moved_[q].area);
+    a(set + "distance", moved_[q].distance);
+    a(set + "part", moved_[q].part);
   }
 }
 

@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstdint>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -33,6 +34,7 @@ struct MovedSet {
 class RelativeMotion {
  public:
   RelativeMotion() = default;
+  /// The rows of the faces must be up to date (update_face_rows()).
   explicit RelativeMotion(const Simulation& sim);
 
   /// Sets that have moved by more than the part `least` of their size, the largest part first; of
@@ -44,9 +46,9 @@ class RelativeMotion {
   double moved_from_start(const Simulation& sim, Id i) const;
 
   bool fits(std::size_t blocks) const;
-  /// Names every field that a checkpoint contains.
+  /// Names every field that a checkpoint contains, after the prefix `of`.
   template <class Archive>
-  void list(Archive& a);
+  void list(Archive& a, const std::string& of);
 
  private:
   /// Blocks that touch at the start; the second is the larger one.
@@ -63,14 +65,14 @@ class RelativeMotion {
 };
 
 template <class Archive>
-void RelativeMotion::list(Archive& a) {
-  a("moved.x", x_);
-  a("moved.y", y_);
-  a("moved.ground_x", ground_.x);
-  a("moved.ground_y", ground_.y);
-  a("moved.small", small_);
-  a("moved.large", large_);
-  a("moved.apart", apart_);
+void RelativeMotion::list(Archive& a, const std::string& of) {
+  a(of + "moved.x", x_);
+  a(of + "moved.y", y_);
+  a(of + "moved.ground_x", ground_.x);
+  a(of + "moved.ground_y", ground_.y);
+  a(of + "moved.small", small_);
+  a(of + "moved.large", large_);
+  a(of + "moved.apart", apart_);
 }
 
 }  // namespace edda

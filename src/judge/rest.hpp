@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "step/simulation.hpp"
@@ -43,7 +44,7 @@ class SlowingDown {
   double to_come(std::size_t i) const { return to_come_[i]; }
   bool fits(std::size_t blocks) const;
   template <class Archive>
-  void list(Archive& a);
+  void list(Archive& a, const std::string& of);
 
  private:
   void begin_window(const Simulation& sim);
@@ -57,16 +58,16 @@ class SlowingDown {
 };
 
 template <class Archive>
-void SlowingDown::list(Archive& a) {
-  a("slowing.began", began_);
-  a("slowing.length", length_);
-  a("slowing.pull", pull_);
-  a("slowing.pull_before", pull_before_);
-  a("slowing.from_x", from_x_);
-  a("slowing.from_y", from_y_);
-  a("slowing.moved_x", moved_x_);
-  a("slowing.moved_y", moved_y_);
-  a("slowing.to_come", to_come_);
+void SlowingDown::list(Archive& a, const std::string& of) {
+  a(of + "slowing.began", began_);
+  a(of + "slowing.length", length_);
+  a(of + "slowing.pull", pull_);
+  a(of + "slowing.pull_before", pull_before_);
+  a(of + "slowing.from_x", from_x_);
+  a(of + "slowing.from_y", from_y_);
+  a(of + "slowing.moved_x", moved_x_);
+  a(of + "slowing.moved_y", moved_y_);
+  a(of + "slowing.to_come", to_come_);
 }
 
 /// [nb] 1: the block is at rest, or not free. With the velocity v and the resultant R of the forces

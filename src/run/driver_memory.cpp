@@ -172,7 +172,7 @@ void Driver::list_stages(Archive& a) {
   a("stage.start", stage_start_);
   a("stage.steps", stage_steps_);
   a("stage.longest", stage_longest_);
-  judge_.list(a);
+  judge_.list(a, "stage.");
   if constexpr (Archive::loads) {
     if (!judge_.fits(sim_)) return a.refuse("what the judge remembers does not fit the model");
   }
@@ -253,7 +253,7 @@ void Driver::list(Archive& a) {
   a("events.counted_frame", event_.counted_frame);
   list_stages(a);
   const Model& model = sim_.scene->model;
-  list_ramp(a, ramp_, stage_ < plans_.size() && stage().ramp, sim_);
+  list_ramp(a, ramp_, stage_ < plans_.size() && stage().ramp);
   list_curve(a, curve_, model, run_.monitors.size());
   a("driver.angle", angle_);
   a("driver.last_row", last_row_);

@@ -13,7 +13,7 @@ namespace edda {
 
 /// The present increment; `expected`: the present stage has a ramp.
 template <class Archive>
-void list_ramp(Archive& a, RampProgress& ramp, bool expected, const Simulation& sim) {
+void list_ramp(Archive& a, RampProgress& ramp, bool expected) {
   a("ramp.increment", ramp.increment);
   a("ramp.since", ramp.since);
   a("ramp.part", ramp.part);
@@ -22,9 +22,9 @@ void list_ramp(Archive& a, RampProgress& ramp, bool expected, const Simulation& 
   a("ramp.searches", searches);
   if constexpr (Archive::loads) {
     if (searches && !expected) return a.refuse("ramps do not fit the model");
-    if (searches) ramp.search.emplace(sim, Criterion{});
+    if (searches) ramp.search.emplace();
   }
-  if (searches) ramp.search->list(a);
+  if (searches) ramp.search->list(a, "ramp.");
 }
 
 /// The rows of curve.csv; `monitors`: their number.

@@ -9,6 +9,7 @@
 #include <map>
 #include <memory>
 
+#include "base/gravity.hpp"
 #include "observe/balance.hpp"
 #include "results/machine.hpp"
 #include "run/wall_clock.hpp"
@@ -270,6 +271,7 @@ void add_scales(const Simulation& sim, FosResult& r) {
     count += 1.0;
   }
   r.size /= std::max(count, 1.0);
+  if (r.acceleration == 0.0) r.acceleration = usual_acceleration;
   r.duration = longest_rest_time(sim);
 }
 

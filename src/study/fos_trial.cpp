@@ -165,6 +165,7 @@ class Run {
   bool is_calm() {
     constexpr double small = 0.05;  // of what is little
     constexpr int looks = 20;
+    update_face_rows(sim_);
     const RelativeMotion window(sim_);
     bool calm = true;
     for (int look = 0; look < looks && !over_; ++look) {

@@ -56,13 +56,15 @@ void move(Simulation& sim, Id i, Vec2 by, double turn = 0.0, Vec2 about = {}) {
   store(x, s.x, s.y, i);
 }
 
-const std::string ground = block("ground", -10, -10, 20, 10);
+const std::string supported = "[[boundary]]\nsides = ['bottom']\ntype = 'fixed'\n";
+const std::string ground = block("ground", -10, -10, 20, 10) + supported;
 
 TEST(MovedSets, ABlockSlidesOnGroundHoweverLargeAndFreeThatIs) {
   for (const double size : {20.0, 2000.0}) {
     for (const char* fixed : {"", "fixed = true\n"}) {
-      Simulation sim =
-          model(block("ground", -size / 2, -size, size, size, fixed) + block("slider", 0, 0, 2, 0.5));
+      const bool is_fixed = *fixed != '\0';
+      Simulation sim = model(block("ground", -size / 2, -size, size, size, fixed) +
+                             block("slider", 0, 0, 2, 0.5) + (is_fixed ? "" : supported));
       const RelativeMotion motion(sim);
       move(sim, id_of(sim, "slider"), {0.05, 0.0});
       const std::vector<MovedSet> sets = motion.sets(sim, 0.01);

@@ -25,7 +25,7 @@ using testing::rough;
 TEST(StrengthFactor, ActsFromTheStartOfItsStage) {
   for (const std::string method : {"edda", "dda"}) {
     for (const auto& [factor, status] :
-         {std::pair{0.95 * exact, Status::equilibrium}, {1.05 * exact, Status::collapsed}}) {
+         {std::pair{0.95 * exact, Status::equilibrium}, {1.05 * exact, Status::completed}}) {
       std::string text = ramp(rough);
       text.replace(text.find("duration = 0.5\n"), 15, "method = '" + method + "'\n");
       PreparedRun run =
