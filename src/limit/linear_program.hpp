@@ -51,7 +51,7 @@ enum class LinearEnd {
 
 struct LinearAnswer {
   LinearEnd end = LinearEnd::failed;
-  double objective = 0.0;
+  double objective = 0.0;     ///< infeasible: by how much the certificate differs
   std::vector<double> value;  ///< [columns]; optimal only
   /// [rows] y: optimal: the prices, by how much the objective grows with the bound of a row.
   /// Infeasible: a certificate, y'A x differs from what the rows allow for all x within bounds.
@@ -66,6 +66,8 @@ struct DualBound {
   double violation = 0.0;  ///< largest reduced cost of a variable that has no bound on that side: 0
                            ///< where `value` is a bound
 };
-DualBound dual_bound(const LinearProgram& program, const std::vector<double>& price);
+/// unit: [columns] a violation counts by it: cost and entries are those of so many; empty: 1.
+DualBound dual_bound(const LinearProgram& program, const std::vector<double>& price,
+                     const std::vector<double>& unit = {});
 
 }  // namespace edda

@@ -141,6 +141,12 @@ std::vector<RigidSupport> supports_of(const Simulation& sim) {
   return all;
 }
 
+/// Of the weights that forces are compared with, m/s2.
+double acceleration_of(const Simulation& sim) {
+  const double g = norm(sim.scene->model.gravity);
+  return g > 0.0 ? g : usual_acceleration;
+}
+
 /// Keeps those supports of a body that do not follow from others. Returns how many are kept.
 std::size_t keep_independent(std::vector<RigidSupport>& supports, Vec2 centroid, double size) {
   constexpr double independent = 1e-6;
@@ -211,15 +217,18 @@ void make_bodies(RigidBlocks& rigid, const Simulation& sim, std::vector<RigidSup
   for (Id first = 0; first < b.size(); ++first) {
     if (group[first].empty() || fixed[first] != 0) continue;
     Vec2 sum;
-    double mass = 0.0;
+    double mass = 0.0, area = 0.0;
     for (const Id i : group[first]) {
       sum += b.mass[i] * centroid(state.x, state.y, i);
       mass += b.mass[i];
+      area += b.area[i];
     }
     if (keep_independent(held[first], sum / mass, rigid.size) == 3) continue;
     rigid.supports.insert(rigid.supports.end(), held[first].begin(), held[first].end());
     for (const Id i : group[first]) rigid.body[i] = static_cast<Id>(rigid.blocks.size());
     rigid.centroid.push_back(sum / mass);
+    rigid.weight.push_back(mass * acceleration_of(sim));
+    rigid.extent.push_back(std::sqrt(area));
     rigid.blocks.push_back(std::move(group[first]));
   }
   std::erase_if(rigid.joints, [&](const RigidJoint& joint) {
@@ -295,10 +304,9 @@ RigidBlocks rigid_blocks(const Simulation& sim) {
     masses += b.mass[i];
     count += 1.0;
   }
-  const double g = norm(sim.scene->model.gravity);
   if (count > 0.0) {
     rigid.size = sizes / count;
-    rigid.force = masses / count * (g > 0.0 ? g : usual_acceleration);
+    rigid.force = masses / count * acceleration_of(sim);
   }
   for (std::size_t k = 0; k < sim.motion.contacts.size(); ++k) add_joint(rigid, sim, k);
   leave_out_twins(rigid.joints, rigid_gap * rigid.size);

@@ -145,7 +145,7 @@ LimitCase::Answer LimitCase::at_end(bool largest, StrengthOf which) const {
 }
 
 std::vector<RigidJointForce> LimitCase::least_thrust(const Answer& associated) const {
-  constexpr double cost = 1e-2, safely = 0.99, nothing = 1e-6;
+  constexpr double cost = 1e-2, safely = 0.99;
   LimitProblem problem;
   problem.rigid = &rigid_;
   problem.thrust_cost = cost / static_cast<double>(rigid_.joints.size());
@@ -153,9 +153,7 @@ std::vector<RigidJointForce> LimitCase::least_thrust(const Answer& associated) c
   problem.strength =
       strength_at(strength ? std::min(1.0, safely * associated.lower) : 1.0, StrengthOf::peak, {});
   problem.dead = fos_.varied == Varied::tilt ? dead_at(0.0) : dead_loads();
-  const Shortfall found = shortfall(problem, std::vector<char>(rigid_.joints.size(), 0));
-  const bool carries = found.solved && found.force <= nothing;
-  return carries ? found.state.forces : std::vector<RigidJointForce>{};
+  return forces_in_balance(problem);
 }
 
 std::optional<double> LimitCase::without_dilation(const Answer& associated) const {
