@@ -42,12 +42,14 @@ class Embedding {
     count_ = signed_.sum() + bounded_.sum();
   }
 
-  LinearEnd run() {
+  LinearEnd run(const ProgramWatch* watch) {
     constexpr int most_rounds = 200;
     for (int round = 0; round < most_rounds; ++round) {
       find_residuals();
       if (const LinearEnd end = judge(); end != LinearEnd::failed) return end;
       if (!step()) break;
+      if (watch != nullptr && watch->stopped()) return LinearEnd::failed;
+      if (watch != nullptr && watch->after_round) watch->after_round();
     }
     return best_ < acceptable ? restore() : LinearEnd::failed;
   }
@@ -248,11 +250,11 @@ class Embedding {
 
 }  // namespace
 
-LinearAnswer solve(const LinearProgram& program) {
+LinearAnswer solve(const LinearProgram& program, const ProgramWatch* watch) {
   const StandardForm form(program);
   Embedding embedding(form);
   LinearAnswer answer;
-  answer.end = embedding.run();
+  answer.end = embedding.run(watch);
   const Point& at = embedding.point();
   // The form minimises the negative of what is to be maximised.
   const double scale = answer.end == LinearEnd::optimal ? -1.0 / at.tau : 1.0;

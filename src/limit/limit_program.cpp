@@ -88,7 +88,7 @@ void solve_with_tangents(const LimitProblem& p, ForceProgram::Asks asks, Complet
   for (int round = 0;; ++round) {
     ForceProgram builder(p, tangents, asks);
     complete(builder);
-    const LinearAnswer answer = solve(builder.program);
+    const LinearAnswer answer = solve(builder.program, p.watch);
     std::vector<RigidJointForce> forces;
     if (answer.end == LinearEnd::optimal) forces = builder.forces(answer.value);
     // Without a limit no strength was reached, or there are tangents yet to come.

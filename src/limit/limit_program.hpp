@@ -54,6 +54,7 @@ struct LimitProblem {
   /// it is small, the state with the least sum of them is found of those with the same multiplier
   /// or shortfall.
   double thrust_cost = 0.0;
+  const ProgramWatch* watch = nullptr;  ///< may be null
 };
 
 enum class LimitEnd {

@@ -1,7 +1,9 @@
 // Linear programs. The only header of limit/ that others need in order to have one solved.
 #pragma once
 
+#include <atomic>
 #include <cstddef>
+#include <functional>
 #include <vector>
 
 namespace edda {
@@ -58,7 +60,16 @@ struct LinearAnswer {
   std::vector<double> price;
 };
 
-LinearAnswer solve(const LinearProgram& program);
+/// Watches programs while they are solved.
+struct ProgramWatch {
+  const std::atomic<bool>* stop = nullptr;  ///< set from any thread: programs end as failed
+  std::function<void()> after_round{};      ///< called from every thread that solves one
+
+  bool stopped() const { return stop != nullptr && stop->load(std::memory_order_relaxed); }
+};
+
+/// watch: may be null.
+LinearAnswer solve(const LinearProgram& program, const ProgramWatch* watch = nullptr);
 
 /// An upper bound of the objective from any prices, by weak duality.
 struct DualBound {

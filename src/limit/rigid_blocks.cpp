@@ -315,6 +315,32 @@ RigidBlocks rigid_blocks(const Simulation& sim) {
   return rigid;
 }
 
+RigidBlocks carrying(const RigidBlocks& rigid, const std::vector<Id>& blocks) {
+  RigidBlocks left = rigid;
+  for (const Id i : blocks) {
+    if (left.body[i] == no_id) continue;
+    for (const Id other : rigid.blocks[rigid.body[i]]) left.body[other] = no_id;
+  }
+  left.blocks.clear();
+  left.centroid.clear();
+  left.weight.clear();
+  left.extent.clear();
+  for (std::size_t r = 0; r < rigid.bodies(); ++r) {
+    if (left.body[rigid.blocks[r].front()] == no_id) continue;
+    for (const Id i : rigid.blocks[r]) left.body[i] = static_cast<Id>(left.blocks.size());
+    left.blocks.push_back(rigid.blocks[r]);
+    left.centroid.push_back(rigid.centroid[r]);
+    left.weight.push_back(rigid.weight[r]);
+    left.extent.push_back(rigid.extent[r]);
+  }
+  const auto fixed = [&](Id i) { return left.body[i] == no_id; };
+  std::erase_if(left.joints, [&](const RigidJoint& joint) {
+    return fixed(joint.block_a) && fixed(joint.block_b);
+  });
+  std::erase_if(left.supports, [&](const RigidSupport& s) { return fixed(s.block); });
+  return left;
+}
+
 RigidForces weights_under(const RigidBlocks& rigid, const Simulation& sim, Vec2 gravity) {
   RigidForces all(rigid.bodies());
   for (std::size_t r = 0; r < all.size(); ++r) {

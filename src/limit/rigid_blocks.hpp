@@ -84,6 +84,9 @@ inline constexpr double rigid_gap = 1e-3;
 
 RigidBlocks rigid_blocks(const Simulation& sim);
 
+/// The same with these blocks fixed where they are.
+RigidBlocks carrying(const RigidBlocks& rigid, const std::vector<Id>& blocks);
+
 /// Weight of the bodies under gravity (m/s2).
 RigidForces weights_under(const RigidBlocks& rigid, const Simulation& sim, Vec2 gravity);
 

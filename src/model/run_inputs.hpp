@@ -127,6 +127,9 @@ struct FosFails {
   std::optional<double> velocity;      ///< m/s, at its end
 };
 
+/// Target of kh, kv and tilt that act to the left or downwards.
+inline constexpr Index backwards = -2;
+
 /// [fos]: the factor of safety.
 struct Fos {
   std::string stage;                 ///< stage from whose end the trials begin; empty: the last
@@ -134,9 +137,10 @@ struct Fos {
   Vec2 bracket{0.5, 3.0};            ///< factors to begin with, lower and upper
   double tolerance = 0.01;           ///< width of the bracket at the end, over its lower factor
   std::vector<std::string> exclude;  ///< joints that keep their strength
+  double least_area = 0.0;           ///< m2: mechanisms that move less are left out
   FosFails fails;
   Varied varied = Varied::strength;  ///< from `vary`
-  Index target = none;               ///< row of loads, shakings, waters or boundaries
+  Index target = none;  ///< row of loads, shakings, waters or boundaries; or `backwards`
   Where where;
 };
 

@@ -6,11 +6,12 @@
 
 namespace edda {
 
-RigidLimit rigid_limit(const Model& model, const Fos& fos, std::size_t blocks) {
+RigidLimit rigid_limit(const Model& model, const Fos& fos, std::size_t blocks,
+                       const LimitOptions& options) {
   constexpr std::size_t most_blocks = 5000;  // for which it takes a small part of the search
   if (fos.varied == Varied::shaking || blocks > most_blocks) return {};
-  Result<LimitResult> found = limit_analysis(model);
-  if (!found.ok()) return {};
+  Result<LimitResult> found = limit_analysis(model, options);
+  if (!found.ok() || found.value().interrupted) return {};
   LimitResult& limit = found.value();
   limit.drawn.reset();
   if (limit.of_pebbles && limit.without_pebbles &&

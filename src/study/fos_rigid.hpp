@@ -16,7 +16,8 @@ using RigidLimit = std::optional<LimitResult>;
 
 /// The limits of rigid blocks, with nothing acting on pebbles where these alone would move; nothing
 /// where there is no such analysis.
-RigidLimit rigid_limit(const Model& model, const Fos& fos, std::size_t blocks);
+RigidLimit rigid_limit(const Model& model, const Fos& fos, std::size_t blocks,
+                       const LimitOptions& options);
 
 /// The criterion of the trial of a factor, from blocks that stand as drawn. Blocks that have an
 /// equilibrium as rigid ones by all limits may move ten times as far before they find it: steep

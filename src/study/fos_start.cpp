@@ -263,7 +263,11 @@ Result<FosStart> start_trials(const Model& model, const Fos& fos, const FosOptio
   if (s.status != FosStatus::found) return made;
   const double given = s.given.value;
   Simulation as_given = s.sim;
-  s.rigid = rigid_limit(model, fos, s.sim.scene->blocks.size());
+  LimitOptions limit;
+  limit.threads = options.threads;
+  limit.stop = options.stop;
+  limit.say = options.say;
+  s.rigid = rigid_limit(model, fos, s.sim.scene->blocks.size(), limit);
   s.as_drawn = stands_as_drawn(s.sim, s.plan.criterion.size);
   Trial trial =
       run_trial(as_given, plan_at(given, fos, s), s.given, [&] { return stopped(options); });
