@@ -18,13 +18,13 @@ class FactorSearch {
   bool has_ended() const { return fails > 0.0 && fails - holds <= tolerance_ * fails; }
 
   /// Newton's step from what was found at `factor`; where it ends near, it goes on to the other
-  /// side of what it found. Never out of what is known, and no more than eightfold at once.
+  /// side of what it found. Upwards from a factor that holds, never out of what is known, and no
+  /// more than eightfold at once.
   void take(const Shortfall& s) {
     (s.holds() ? holds : fails) = factor;
-    constexpr double most = 8.0;
-    const double slope = s.strength / factor;
-    double next = slope > 0.0 ? factor - s.tension / slope : 0.0;
-    if (!(slope > 0.0)) next = s.holds() ? most * factor : factor / most;
+    constexpr double most = 8.0, flat = 1e-6;  // where no strength counts
+    double next = s.strength > flat ? factor * (1.0 - s.tension / s.strength)
+                                    : factor * (s.holds() ? most : 1.0 / most);
     if (std::abs(next - factor) < 0.5 * tolerance_ * factor)
       next = factor * (1.0 + (s.holds() ? 0.6 : -0.6) * tolerance_);
     next = std::clamp(next, factor / most, most * factor);

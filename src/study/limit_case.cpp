@@ -194,8 +194,8 @@ std::optional<double> LimitCase::without_dilation_from(std::vector<RigidJointFor
   std::vector<double> values{associated.lower};
   // Part of the new forces that the next program goes by; less where programs alternate. A value
   // changes in proportion to it.
-  constexpr double most_part = 0.5, least_part = 0.1;
-  double part = most_part, last_change = 0.0;
+  constexpr double first_part = 0.5, most_part = 1.0, least_part = 0.1;
+  double part = first_part, last_change = 0.0;
   for (int round = 0; round < most_rounds; ++round) {
     const auto given = [&](double factor) {
       return edda::without_dilation(rigid_, strength_at(factor, StrengthOf::peak, stress),
@@ -207,9 +207,10 @@ std::optional<double> LimitCase::without_dilation_from(std::vector<RigidJointFor
     if (answer.end != LimitEnd::found) return {};
     const double change = answer.lower - values.back();
     values.push_back(answer.lower);
-    if (std::abs(change) <= close * part / most_part * std::abs(answer.lower))
+    if (std::abs(change) <= close * part / first_part * std::abs(answer.lower))
       return std::min(answer.lower, associated.lower);
-    if (change * last_change < 0.0) part = std::max(least_part, 0.7 * part);
+    part = change * last_change < 0.0 ? std::max(least_part, 0.7 * part)
+                                      : std::min(most_part, 1.3 * part);
     last_change = change;
     for (std::size_t k = 0; k < reference.size(); ++k) {
       for (std::size_t end = 0; end < 2; ++end) {
@@ -220,7 +221,7 @@ std::optional<double> LimitCase::without_dilation_from(std::vector<RigidJointFor
   }
   // Programs may alternate between two mechanisms.
   const auto [least, most] = std::minmax_element(values.end() - 4, values.end());
-  if (*most - *least > about * part / most_part * std::abs(*most)) return {};
+  if (*most - *least > about * part / first_part * std::abs(*most)) return {};
   return std::min(*least, associated.lower);
 }
 
