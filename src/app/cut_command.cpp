@@ -139,6 +139,7 @@ void add_cut(CLI::App& app, int& code) {
                    "What to write: a .png, .svg or .pdf picture, .vtu for ParaView, or .csv")
       ->type_name("FILE");
   add_overrides(*command, args->overrides);
+  add_threads(*command);
   command->callback([args, &code] { code = cut(*args); });
 }
 

@@ -35,8 +35,7 @@ Trouble write_results(const Model& model, const FosResult& r, const std::string&
     if (Trouble t = write("mechanism_joints.csv", mechanism_joints_csv(*r.mechanism))) return t;
     const std::string says =
         fmt::format("mechanism at factor {:.4g}: {}", *r.fails, r.mechanism->text);
-    if (Trouble t = draw_mechanism(model, *r.failed, *r.mechanism, r.size, says, folder))
-      return t;
+    if (Trouble t = draw_mechanism(model, *r.failed, *r.mechanism, r.size, says, folder)) return t;
   }
   if (Trouble t = write_columns_csv(folder)) return t;
   return write("summary.json", fos_summary(model, r, omp_get_max_threads()));

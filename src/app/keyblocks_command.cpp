@@ -162,6 +162,7 @@ void add_keyblocks(CLI::App& app, int& code) {
                    "At most so many: 1 for the blocks that leave first (default: all)")
       ->check(CLI::PositiveNumber);
   add_overrides(*command, args->overrides);
+  add_threads(*command);
   command->add_flag("--quiet", args->quiet, "Print the sentence alone, no warnings");
   add_json(*command, args->json,
            "Print the summary as one JSON object on stdout, and nothing on stderr");

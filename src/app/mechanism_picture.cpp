@@ -30,7 +30,8 @@ Trouble draw_in_both_forms(const Snapshot& shot, const PlotOptions& options,
 }
 
 Trouble draw_mechanism(const Model& model, const Simulation& moved, const Mechanism& mechanism,
-                       double size, const std::string& subtitle, const std::string& folder) {
+                       double size, const std::string& subtitle, const std::string& folder,
+                       const char* name) {
   Instant instant;
   observe(moved, instant);
   Snapshot shot{block_grid(block_cells(moved.scene->blocks), picture_of(moved, instant))};
@@ -50,7 +51,7 @@ Trouble draw_mechanism(const Model& model, const Simulation& moved, const Mechan
       options.joints.push_back(
           {s.from + options.scale * s.from_moved, s.to + options.scale * s.to_moved});
   }
-  return draw_in_both_forms(shot, options, folder, "mechanism");
+  return draw_in_both_forms(shot, options, folder, name);
 }
 
 Trouble draw_thrust(const Model& model, const Simulation& drawn,

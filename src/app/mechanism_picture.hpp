@@ -11,10 +11,11 @@
 
 namespace edda {
 
-/// mechanism.png and mechanism.svg: the blocks as they have moved, enlarged until that shows, and
+/// NAME.png and .svg: the blocks as they have moved, enlarged until that shows, and
 /// the joints along which they did. size: of the blocks, m.
 Trouble draw_mechanism(const Model& model, const Simulation& moved, const Mechanism& mechanism,
-                       double size, const std::string& subtitle, const std::string& folder);
+                       double size, const std::string& subtitle, const std::string& folder,
+                       const char* name = "mechanism");
 
 /// thrust.png and thrust.svg: the blocks and the forces of their joints.
 Trouble draw_thrust(const Model& model, const Simulation& drawn,

@@ -58,8 +58,11 @@ double factor_of(const TimeHistory& history, const ActiveInterval& interval,
 }  // namespace
 
 Vec2 gravity_at(Vec2 g, const SlowLoading& slow, double time, const GradualChange& gradual) {
-  const double angle = slow.tilt.at(time, gradual) * std::numbers::pi / 180.0;
-  const double kh = slow.kh.at(time, gradual), kv = slow.kv.at(time, gradual);
+  const auto both = [&](const SteppedValue& there, const SteppedValue& back) {
+    return there.at(time, gradual) - back.at(time, gradual);
+  };
+  const double angle = both(slow.tilt, slow.tilt_back) * std::numbers::pi / 180.0;
+  const double kh = both(slow.kh, slow.kh_back), kv = both(slow.kv, slow.kv_back);
   const Vec2 tilted = std::cos(angle) * g + std::sin(angle) * perp(g);
   return slow.gravity.at(time, gradual) * ((1.0 - kv) * tilted + kh * perp(tilted));
 }
@@ -68,11 +71,11 @@ SteppedValue* slow_value(SlowLoading& slow, Varied varied, Index target) {
   const auto row = static_cast<std::size_t>(target);
   switch (varied) {
     case Varied::tilt:
-      return &slow.tilt;
+      return target == backwards ? &slow.tilt_back : &slow.tilt;
     case Varied::kh:
-      return &slow.kh;
+      return target == backwards ? &slow.kh_back : &slow.kh;
     case Varied::kv:
-      return &slow.kv;
+      return target == backwards ? &slow.kv_back : &slow.kv;
     case Varied::gravity:
       return &slow.gravity;
     case Varied::load:

@@ -123,9 +123,10 @@ struct SteppedValue {
 /// What ramps and the trials of a factor have made of gravity and of the loads that the model gives
 /// (theory, section 11.5).
 struct SlowLoading {
-  SteppedValue kh, kv;           ///< seismic coefficients
-  SteppedValue tilt;             ///< degrees
-  SteppedValue gravity{1., 1.};  ///< multiplier of the weight
+  SteppedValue kh, kv;                       ///< seismic coefficients
+  SteppedValue tilt;                         ///< degrees
+  SteppedValue kh_back, kv_back, tilt_back;  ///< the same to the left and downwards
+  SteppedValue gravity{1., 1.};              ///< multiplier of the weight
   /// Multipliers, [rows of Model::loads], of Model::waters and of Model::boundaries.
   std::vector<SteppedValue> loads, waters, boundaries;
 };
@@ -135,7 +136,8 @@ struct SlowLoading {
 Vec2 gravity_at(Vec2 g, const SlowLoading& slow, double time, const GradualChange& gradual);
 
 /// The value of what a ramp or the trials of a factor vary (`target`: row of the model's loads,
-/// waters or boundaries); null for strength and ground motions, which are none of these.
+/// waters or boundaries, or `backwards`); null for strength and ground motions, which are none of
+/// these.
 SteppedValue* slow_value(SlowLoading& slow, Varied varied, Index target);
 /// The interval in which that load, water or boundary is active; null for all others.
 ActiveInterval* interval_of(ActiveIntervals& intervals, Varied varied, Index target);

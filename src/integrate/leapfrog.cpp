@@ -79,6 +79,11 @@ OwnKicks own_kicks(const Leap& leap, double h_of_positions) {
   return {k.keeps.data(), k.h.data(), h_of_positions, leap.damping.local};
 }
 
+Leap damped_by(const Leap& leap, const StepDamping& other) {
+  return {leap.blocks, leap.masses, leap.force_x, leap.force_y, leap.old_vx,
+          leap.old_vy, leap.h_old,  leap.h_new,   other};
+}
+
 /// The first block of [begin, end) that local damping spares; else `end`.
 std::size_t next_spared(const StepDamping& damping, std::size_t begin, std::size_t end) {
   if (damping.local == 0.0 || damping.spared == nullptr) return end;
@@ -102,12 +107,8 @@ void advance(State& s, const Leap& leap, std::size_t begin, std::size_t end) {
     StepDamping all = damping, its = damping;
     all.spared = its.spared = nullptr;
     its.local = 0.0;
-    const auto damped_by = [&](const StepDamping& other) {
-      return Leap{b,           masses,     leap.force_x, leap.force_y, leap.old_vx,
-                  leap.old_vy, leap.h_old, leap.h_new,   other};
-    };
-    advance(s, damped_by(all), begin, i);
-    advance(s, damped_by(its), i, i + 1);
+    advance(s, damped_by(leap, all), begin, i);
+    advance(s, damped_by(leap, its), i, i + 1);
     begin = i + 1;
   }
   const double h_new = leap.h_new;
@@ -201,7 +202,8 @@ void account_damping(const State& s, const Leap& leap, DampingWork& work) {
         moved[k] = half_way(before[k], after[k], h_old, h_new);
         work.joules[i] -= dot(local_damping(f[k], before[k], local), moved[k]);
       }
-      work.joules[i] += damping.mass_of(i) * mass_product(leap.masses, i, 0.5 * (before + after), moved);
+      work.joules[i] +=
+          damping.mass_of(i) * mass_product(leap.masses, i, 0.5 * (before + after), moved);
     });
     return;
   }

@@ -91,7 +91,7 @@ struct BlocksView {
   double* work;
   NodeValues x, y, vx, vy;
   ConstNodeValues old_vx, old_vy;
-  double h;         ///< s, of W, StrainDamping::step
+  double h;             ///< s, of W, StrainDamping::step
   const double* steps;  ///< StrainDamping::steps; null: none
   double h_old, h_new;
 };

@@ -27,9 +27,9 @@ struct StrainDamping {
   std::array<std::vector<double>, 6>
       matrix;  ///< [6][nb] W, entries 11 12 13 22 23 33, J s; 0 for blocks without damping
   std::array<std::vector<double>, 3> stress;  ///< [3][nb] s = V sigma_v of the last step, J
-  std::vector<double> work;  ///< [nb] what it dissipated in the last step, J: s : B (x_{n+1} -
-                             ///< x_{n-1})/2
-  double step = 0.0;         ///< s: h for which W was computed; 0: none
+  std::vector<double> work;   ///< [nb] what it dissipated in the last step, J: s : B (x_{n+1} -
+                              ///< x_{n-1})/2
+  double step = 0.0;          ///< s: h for which W was computed; 0: none
   std::vector<double> steps;  ///< [nb] s, that of each block; empty where all have the same
   double step_of(std::size_t i) const { return steps.empty() ? step : steps[i]; }
 };

@@ -18,9 +18,14 @@ Verdict Holding::look(Simulation& sim) {
     if (set.area < criterion_.least_area) continue;
     part_ = std::max(part_, set.part);
     if (set.part <= criterion_.allowed) continue;
-    const bool rests = std::all_of(set.blocks.begin(), set.blocks.end(),
-                                   [&](Id i) { return judge_.rests()[i] != 0; });
-    return end(Verdict::fails, rests ? "moved too far" : "keeps moving", set.blocks.front());
+    failed_.insert(failed_.end(), set.blocks.begin(), set.blocks.end());
+  }
+  if (!failed_.empty()) {
+    const Id first = failed_.front();  // of the set that has moved furthest
+    std::sort(failed_.begin(), failed_.end());
+    const bool rest =
+        std::all_of(failed_.begin(), failed_.end(), [&](Id i) { return judge_.rests()[i] != 0; });
+    return end(Verdict::fails, rest ? "moved too far" : "keeps moving", first);
   }
   if (criterion_.displacement) {
     const Furthest furthest = judge_.furthest(sim);

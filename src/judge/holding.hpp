@@ -48,6 +48,8 @@ class Holding {
   const std::string& reason() const { return reason_; }  ///< of the verdict, a few words
   /// A block of the set that fails; no_id: the model holds, or there is no verdict.
   Id block() const { return block_; }
+  /// All blocks that have failed, ascending.
+  const std::vector<Id>& failed() const { return failed_; }
   /// Largest part of its size by which a set that counts has moved so far.
   double part() const { return part_; }
   const Criterion& criterion() const { return criterion_; }
@@ -63,6 +65,7 @@ class Holding {
   Judge judge_;
   double part_ = 0.0;
   Id block_ = no_id;
+  std::vector<Id> failed_;
   std::string reason_;
 };
 

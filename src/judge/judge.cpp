@@ -8,8 +8,8 @@
 #include <utility>
 
 #include "base/text.hpp"
-#include "step/tile_step.hpp"
 #include "step/labels.hpp"
+#include "step/tile_step.hpp"
 
 namespace edda {
 namespace {
@@ -28,12 +28,25 @@ Judge::Judge(Simulation& sim, std::vector<std::uint8_t> left_out)
 void Judge::begin(const Simulation& sim) {
   slowing_.begin(sim);
   rests_.assign(sim.scene->blocks.size(), 0);
+  was_complete_ = false;
   found_in_sequence_ = at_rest_in_sequence_ = 0;
+}
+
+void Judge::follow_supports(Simulation& sim) {
+  constexpr double own_size = 1.0;
+  if (!motion_.supports_have_moved(sim)) return;
+  for (const MovedSet& set : motion_.sets(sim, own_size, left_out_)) {
+    gone_.resize(sim.scene->blocks.size(), 0);
+    for (const Id i : set.blocks) gone_[i] = 1;
+  }
+  update_face_rows(sim);
+  motion_ = RelativeMotion(sim);
 }
 
 void Judge::find_moved(Simulation& sim) {
   moved_ = motion_.sets(sim, moved_little, left_out_);
-  left_ = left_out_;
+  left_ = gone_.empty() ? left_out_ : gone_;
+  for (std::size_t i = 0; i < left_out_.size(); ++i) left_[i] |= left_out_[i];
   for (const MovedSet& set : moved_) {
     if (set.part <= left_its_place) break;
     left_.resize(sim.scene->blocks.size(), 0);
@@ -48,10 +61,12 @@ bool Judge::look(Simulation& sim) {
   if (!is_explicit(sim) || steps % find_moved_every == 0) find_moved(sim);
   const bool complete = gradual_change_complete(sim);
   if (complete) {
+    if (!was_complete_) follow_supports(sim);
     slowing_.look(sim);
   } else {
     slowing_.begin(sim);
   }
+  was_complete_ = complete;
   rests_ = blocks_at_rest(sim, complete && is_explicit(sim) ? &slowing_ : nullptr);
   std::size_t moving = 0, counted = 0;
   bool rest = complete, found = complete;
@@ -86,21 +101,19 @@ std::string Judge::left_text(const Simulation& sim) const {
   }
   if (sets.empty()) return {};
   std::string text =
-      fmt::format(", except for {} ({:.3g} m2) that {} come loose: ", counted(blocks, "block"), area,
-                  blocks == 1 ? "has" : "have");
+      fmt::format(", except for {} ({:.3g} m2) that {} come loose: ", counted(blocks, "block"),
+                  area, blocks == 1 ? "has" : "have");
   for (std::size_t q = 0; q < std::min(named, sets.size()); ++q) {
     const MovedSet& set = *sets[q];
     const Id i = set.blocks.front();
     const Furthest speed = fastest_of(sim, set.blocks);
-    text += fmt::format("{}{}{} (moved {:.3g} m{})", q == 0 ? "" : ", ",
-                        block_label(sim.scene->blocks, i),
-                        set.blocks.size() == 1
-                            ? ""
-                            : fmt::format(" and {} with it", set.blocks.size() - 1),
-                        set.distance,
-                        rests_[speed.block == no_id ? i : speed.block] != 0
-                            ? ", stopped"
-                            : fmt::format(", now at {:.3g} m/s", speed.value));
+    text += fmt::format(
+        "{}{}{} (moved {:.3g} m{})", q == 0 ? "" : ", ", block_label(sim.scene->blocks, i),
+        set.blocks.size() == 1 ? "" : fmt::format(" and {} with it", set.blocks.size() - 1),
+        set.distance,
+        rests_[speed.block == no_id ? i : speed.block] != 0
+            ? ", stopped"
+            : fmt::format(", now at {:.3g} m/s", speed.value));
   }
   if (sets.size() > named) text += fmt::format(" and {} more", sets.size() - named);
   return text;
@@ -124,7 +137,7 @@ Furthest fastest_of(const Simulation& sim, const std::vector<Id>& blocks) {
 
 bool Judge::fits(const Simulation& sim) const {
   const std::size_t nb = sim.scene->blocks.size();
-  for (const auto* marks : {&left_out_, &left_}) {
+  for (const auto* marks : {&left_out_, &left_, &gone_}) {
     if (!marks->empty() && marks->size() != nb) return false;
   }
   const auto of_model = [nb](const MovedSet& set) {

@@ -1,9 +1,11 @@
 // The judge of rest and failure: what stands, what moves, what has left its place. Stages, ramps,
 // trials of a factor and the calm after a ground motion all ask it (docs/verdicts.md).
 //
-//  - A block is judged by its own size L and time T (rest.hpp), and by how it has moved as seen from
+//  - A block is judged by its own size L and time T (rest.hpp), and by how it has moved as seen
+//  from
 //    the blocks beside it (moved_sets.hpp). No mean over the model enters.
-//  - The model is in equilibrium if every free block is at rest, or has left its place and is named.
+//  - The model is in equilibrium if every free block is at rest, or has left its place and is
+//  named.
 //  - A set of blocks has left its place that has moved by more than a tenth of its size.
 //  - While joints are stronger than the model's, or loads incomplete, nothing is at rest.
 #pragma once
@@ -41,6 +43,9 @@ class Judge {
 
   /// Call when a change begins to be applied (begin_gradually()).
   void begin(const Simulation& sim);
+  /// Displacements count anew, where supports have been displaced: blocks that follow them turn and
+  /// slide on each other as geometry has it. What has gone by its whole size meanwhile has left.
+  void follow_supports(Simulation& sim);
   /// Call after every step; looks at every 32nd of an explicit method. Returns whether it looked.
   /// Marks what has left its place as loose, which damping does not consider (Relaxation::loose).
   bool look(Simulation& sim);
@@ -75,9 +80,11 @@ class Judge {
   void find_moved(Simulation& sim);
 
   std::vector<std::uint8_t> left_out_, left_, rests_;
+  std::vector<std::uint8_t> gone_;  ///< [nb] 1: left on the way, follow_supports(); empty: none
   RelativeMotion motion_;
   SlowingDown slowing_;
   std::vector<MovedSet> moved_;
+  bool was_complete_ = false;  ///< gradual changes, at the last look
   int found_in_sequence_ = 0, at_rest_in_sequence_ = 0;
 };
 
@@ -85,7 +92,9 @@ template <class Archive>
 void Judge::list(Archive& a, const std::string& of) {
   a(of + "judge.left_out", left_out_);
   a(of + "judge.left", left_);
+  a(of + "judge.gone", gone_);
   a(of + "judge.rests", rests_);
+  a(of + "judge.was_complete", was_complete_);
   a(of + "judge.found", found_in_sequence_);
   a(of + "judge.at_rest", at_rest_in_sequence_);
   motion_.list(a, of);

@@ -110,14 +110,18 @@ void keep_outer(std::vector<MovedSet>& sets, std::size_t blocks) {
 }  // namespace
 
 RelativeMotion::RelativeMotion(const Simulation& sim)
-    : x_(sim.motion.state.x), y_(sim.motion.state.y), ground_(sim.attached.ground.shift) {
+    : x_(sim.motion.state.x),
+      y_(sim.motion.state.y),
+      ground_(sim.attached.ground.shift),
+      shift_(sim.attached.springs.shift) {
   constexpr double near = 1e-3;  // of the smaller block: a gap across which blocks are neighbours
   const BlockSet& b = sim.scene->blocks;
   const FaceSet& f = sim.motion.contacts;
   std::vector<std::pair<Id, Id>> pairs;
   const auto add = [&](Id i, Id j) {
     if (i == j) return;
-    pairs.push_back(size_of(sim, i) < size_of(sim, j) || (size_of(sim, i) == size_of(sim, j) && i > j)
+    pairs.push_back(size_of(sim, i) < size_of(sim, j) ||
+                            (size_of(sim, i) == size_of(sim, j) && i > j)
                         ? std::pair{i, j}
                         : std::pair{j, i});
   };
@@ -126,7 +130,8 @@ RelativeMotion::RelativeMotion(const Simulation& sim)
       add(block_of_edge(b, f, k), block_of_facing(b, f, k));
   }
   const PointSet& p = sim.motion.point_contacts;
-  for (std::size_t k = 0; k < p.size(); ++k) add(b.vertex_block[p.vertex[k]], b.vertex_block[p.edge[k]]);
+  for (std::size_t k = 0; k < p.size(); ++k)
+    add(b.vertex_block[p.vertex[k]], b.vertex_block[p.edge[k]]);
   const Bolts& bolts = sim.attached.bolts;
   std::sort(pairs.begin(), pairs.end());
   pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
@@ -168,10 +173,9 @@ double RelativeMotion::moved(const Simulation& sim, const Pair& pair) const {
   const Deformation now = deformation(b, s.x, s.y, pair.large),
                     was = deformation(b, x_, y_, pair.large);
   const double det = was.xx * was.yy - was.xy * was.yx;
-  const Deformation g{(now.xx * was.yy - now.xy * was.yx) / det,
-                      (now.xy * was.xx - now.xx * was.xy) / det,
-                      (now.yx * was.yy - now.yy * was.yx) / det,
-                      (now.yy * was.xx - now.yx * was.xy) / det};
+  const Deformation g{
+      (now.xx * was.yy - now.xy * was.yx) / det, (now.xy * was.xx - now.xx * was.xy) / det,
+      (now.yx * was.yy - now.yy * was.yx) / det, (now.yy * was.xx - now.yx * was.xy) / det};
   const Vec2 c = centroid(s.x, s.y, pair.large), c0 = centroid(x_, y_, pair.large);
   double most = 0.0;
   for (Id v = b.vertex_begin[pair.small]; v < b.vertex_begin[pair.small + 1]; ++v) {
@@ -182,10 +186,28 @@ double RelativeMotion::moved(const Simulation& sim, const Pair& pair) const {
   return most;
 }
 
+bool RelativeMotion::supports_have_moved(const Simulation& sim) const {
+  return sim.attached.springs.shift != shift_;
+}
+
 double RelativeMotion::moved_from_start(const Simulation& sim, Id i) const {
+  return moved_with(sim, i, sim.attached.ground.shift - ground_);
+}
+
+double RelativeMotion::moved_from_support(const Simulation& sim, Id i) const {
+  const BoundarySprings& springs = sim.attached.springs;
+  double least = moved_from_start(sim, i);
+  for (Id q = springs.block_begin[i]; q < springs.block_begin[i + 1]; ++q) {
+    const auto row = static_cast<std::size_t>(springs.boundary[q]);
+    if (springs.kxx[q] + springs.kyy[q] > 0.0 && springs.shift[row] != shift_[row])
+      least = std::min(least, moved_with(sim, i, springs.shift[row] - shift_[row]));
+  }
+  return least;
+}
+
+double RelativeMotion::moved_with(const Simulation& sim, Id i, Vec2 carried) const {
   const BlockSet& b = sim.scene->blocks;
   const State& s = sim.motion.state;
-  const Vec2 carried = sim.attached.ground.shift - ground_;
   double most = 0.0;
   for (Id v = b.vertex_begin[i]; v < b.vertex_begin[i + 1]; ++v)
     most = std::max(most, norm(vertex_at(b, s.x, s.y, v) - vertex_at(b, x_, y_, v) - carried));
@@ -214,7 +236,7 @@ std::vector<MovedSet> RelativeMotion::sets(const Simulation& sim, double least,
     links.push_back({moved(sim, {i, j}), i, j});
   }
   for (Id i = 0; i < b.size(); ++i) {
-    if (counts(i) && is_free(b, s, i)) links.push_back({moved_from_start(sim, i), i, ground});
+    if (counts(i) && is_free(b, s, i)) links.push_back({moved_from_support(sim, i), i, ground});
   }
   std::sort(links.begin(), links.end(), [](const Link& a, const Link& c) {
     return a.distance != c.distance ? a.distance < c.distance

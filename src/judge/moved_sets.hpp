@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "checkpoint/archive.hpp"
 #include "step/simulation.hpp"
 
 namespace edda {
@@ -26,11 +27,11 @@ struct MovedSet {
 ///
 /// Two blocks that touch then have moved by D, the largest displacement of a corner of the smaller
 /// block as seen from the larger one, whose motion is affine; a block has also moved by D from
-/// where it was, as seen from the ground. Blocks are joined in the order of their D (single
-/// linkage). Where a set S is joined at D to a larger one that contains all its neighbours, S has
-/// moved by the part D/L of its size, L = sqrt(area) of the largest block of S. If S has other
-/// neighbours, these may have carried it along, and it is judged together with them. A set that
-/// touched nothing that anything supports was to land: a tenth of D counts.
+/// where it was, as seen from the ground or from a boundary that holds it. Blocks are joined in the
+/// order of their D (single linkage). Where a set S is joined at D to a larger one that contains
+/// all its neighbours, S has moved by the part D/L of its size, L = sqrt(area) of the largest block
+/// of S. If S has other neighbours, these may have carried it along, and it is judged together with
+/// them. A set that touched nothing that anything supports was to land: a tenth of D counts.
 class RelativeMotion {
  public:
   RelativeMotion() = default;
@@ -42,6 +43,8 @@ class RelativeMotion {
   std::vector<MovedSet> sets(const Simulation& sim, double least,
                              const std::vector<std::uint8_t>& left_out = {}) const;
 
+  /// Whether a boundary has been displaced since the start.
+  bool supports_have_moved(const Simulation& sim) const;
   /// Largest displacement of a corner of block i as seen from the ground, m.
   double moved_from_start(const Simulation& sim, Id i) const;
 
@@ -56,11 +59,14 @@ class RelativeMotion {
     Id small = 0, large = 0;
   };
   double moved(const Simulation& sim, const Pair& pair) const;
+  double moved_with(const Simulation& sim, Id i, Vec2 carried) const;
+  double moved_from_support(const Simulation& sim, Id i) const;
   double size_of(const Simulation& sim, Id i) const;
 
-  Nodes x_, y_;                     ///< [nodes][nb] m, at the start
-  Vec2 ground_;                     ///< m, displacement of the ground then
-  std::vector<Id> small_, large_;   ///< [pairs]
+  Nodes x_, y_;                      ///< [nodes][nb] m, at the start
+  Vec2 ground_;                      ///< m, displacement of the ground then
+  std::vector<Vec2> shift_;          ///< [boundaries] m, that of each boundary then
+  std::vector<Id> small_, large_;    ///< [pairs]
   std::vector<std::uint8_t> apart_;  ///< [nb] 1: nothing supported it then
 };
 
@@ -70,6 +76,7 @@ void RelativeMotion::list(Archive& a, const std::string& of) {
   a(of + "moved.y", y_);
   a(of + "moved.ground_x", ground_.x);
   a(of + "moved.ground_y", ground_.y);
+  list_points(a, of + "moved.shift", shift_);
   a(of + "moved.small", small_);
   a(of + "moved.large", large_);
   a(of + "moved.apart", apart_);

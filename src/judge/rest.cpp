@@ -109,13 +109,15 @@ void SlowingDown::begin_window(const Simulation& sim) {
   }
 }
 
-/// A motion that decays towards equilibrium decreases by the same ratio q from window to window: q/(1
+/// A motion that decays towards equilibrium decreases by the same ratio q from window to window:
+/// q/(1
 /// - q) of the last one is still to come.
 void SlowingDown::look(const Simulation& sim) {
   if (sim.motion.state.steps < began_ + length_) return;
   const double like_before = pull_before_ > 0.0 ? pull_ / pull_before_ : 1.0;
   for (std::size_t i = 0; i < from_x_.size(); ++i) {
-    const Vec2 now = centroid(sim.motion.state.x, sim.motion.state.y, i) - Vec2{from_x_[i], from_y_[i]},
+    const Vec2 now = centroid(sim.motion.state.x, sim.motion.state.y, i) -
+                     Vec2{from_x_[i], from_y_[i]},
                was{moved_x_[i], moved_y_[i]};
     const double ratio = dot(was, was) > 0.0 ? like_before * dot(now, was) / dot(was, was) : 1.0;
     to_come_[i] = ratio <= 0.0  ? 0.0
@@ -140,11 +142,11 @@ std::vector<std::uint8_t> blocks_at_rest(const Simulation& sim, const SlowingDow
     const double own = acceleration_on(sim, acting, i);
     const double weight = b.mass[i] * (own > 0.0 ? own : usual_acceleration);
     const bool stiff = sim.stepper->remaining_travel(sim, i, force) <= most;
-    if (stiff && (slowing == nullptr ||
-                  (slowing->to_come(i) <= most && force <= balanced_part * weight)))
+    if (stiff &&
+        (slowing == nullptr || (slowing->to_come(i) <= most && force <= balanced_part * weight)))
       continue;
-    const double speed = norm(centroid(s.vx, s.vy, i)) *
-                         std::sqrt(inertia_of(sim.motion.masses, i) / b.mass[i]);
+    const double speed =
+        norm(centroid(s.vx, s.vy, i)) * std::sqrt(inertia_of(sim.motion.masses, i) / b.mass[i]);
     const double time = rest_time(size_of(sim, i), own);
     const double travel = speed * time + 0.5 * force / b.mass[i] * time * time;
     rest[i] = slowing != nullptr && travel <= most ? 1 : 0;

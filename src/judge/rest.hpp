@@ -9,8 +9,8 @@
 
 namespace edda {
 
-/// At rest a block would move no further than this part of its size, and the forces on it balance to
-/// this part of its weight.
+/// At rest a block would move no further than this part of its size, and the forces on it balance
+/// to this part of its weight.
 inline constexpr double rest_part = 1e-4, balanced_part = 1e-3;
 
 /// Time within which a block at rest would move no further, s: T = 5 sqrt(L/a), in which it would
@@ -48,7 +48,7 @@ class SlowingDown {
 
  private:
   void begin_window(const Simulation& sim);
-  std::uint64_t began_ = 0, length_ = 0;  ///< steps, of the present window
+  std::uint64_t began_ = 0, length_ = 0;   ///< steps, of the present window
   double pull_ = 0.0, pull_before_ = 0.0;  ///< 1/s2: the displacement in a window times this
                                            ///< measures the acceleration that drives a block which
                                            ///< only mass-proportional damping resists
@@ -71,10 +71,11 @@ void SlowingDown::list(Archive& a, const std::string& of) {
 }
 
 /// [nb] 1: the block is at rest, or not free. With the velocity v and the resultant R of the forces
-/// on it, less their rounding, it would move by no more than rest_part of its size L if nothing held
-/// it, v T + R/m T^2/2 with T = rest_time(L, a), m its true mass, and v that of the same kinetic
-/// energy with this mass; or against the stiffness of its motion (Stepper::remaining_travel), if it
-/// is also seen to slow down before that and R is at most balanced_part of its weight. `slowing`: null where only the latter counts.
+/// on it, less their rounding, it would move by no more than rest_part of its size L if nothing
+/// held it, v T + R/m T^2/2 with T = rest_time(L, a), m its true mass, and v that of the same
+/// kinetic energy with this mass; or against the stiffness of its motion
+/// (Stepper::remaining_travel), if it is also seen to slow down before that and R is at most
+/// balanced_part of its weight. `slowing`: null where only the latter counts.
 std::vector<std::uint8_t> blocks_at_rest(const Simulation& sim, const SlowingDown* slowing);
 
 }  // namespace edda

@@ -5,61 +5,76 @@
 
 namespace edda {
 
+namespace {
+
+/// The search for the factor at which the tension that joints need is 0.
+class FactorSearch {
+ public:
+  FactorSearch(double first, double tolerance) : factor(first), tolerance_(tolerance) {}
+
+  double factor;
+  double holds = 0.0, fails = 0.0;  ///< 0: not known yet
+
+  bool has_ended() const { return fails > 0.0 && fails - holds <= tolerance_ * fails; }
+
+  /// Newton's step from what was found at `factor`; where it ends near, it goes on to the other
+  /// side of what it found. Upwards from a factor that holds, never out of what is known, and no
+  /// more than eightfold at once.
+  void take(const Shortfall& s) {
+    (s.holds() ? holds : fails) = factor;
+    constexpr double most = 8.0, flat = 1e-6;  // where no strength counts
+    double next = s.strength > flat ? factor * (1.0 - s.tension / s.strength)
+                                    : factor * (s.holds() ? most : 1.0 / most);
+    if (std::abs(next - factor) < 0.5 * tolerance_ * factor)
+      next = factor * (1.0 + (s.holds() ? 0.6 : -0.6) * tolerance_);
+    next = std::clamp(next, factor / most, most * factor);
+    if (holds > 0.0 && fails > 0.0 && !(next > holds && next < fails)) next = between();
+    factor = next;
+  }
+
+ private:
+  /// Near the end that was found last, further away each time that this does not find the other.
+  double between() {
+    away_ = away_ > 0.0 ? 8.0 * away_ : 0.6 * tolerance_ * factor;
+    const double step = std::min(away_, 0.5 * (fails - holds));
+    return factor == holds ? holds + step : fails - step;
+  }
+
+  double tolerance_, away_ = 0.0;
+};
+
+}  // namespace
+
 StrengthFactor strength_factor(LimitProblem problem, const std::vector<char>& divided,
                                const std::function<std::vector<RigidStrength>(double)>& strength_at,
                                double tolerance, double first) {
-  constexpr double nothing = 1e-7;  // of a mean weight: an equilibrium
   constexpr double most = 1e4, least = 1e-4;
-  constexpr int most_programs = 200;
+  constexpr int most_programs = 100;
   StrengthFactor found;
   std::vector<RigidMotion> mechanism;
-  double factor = first;
-  double upwards = 0.0;  // last step from a factor that holds towards one that fails
-  // Newton's step from `fails` ends near the limit. If that is not just above, it is looked for
-  // eight times as far away, halfway at most.
-  const auto above_holds = [&] {
-    upwards = upwards > 0.0 ? 8.0 * upwards : 0.6 * tolerance * factor;
-    return found.holds + std::min(upwards, 0.5 * (found.fails - found.holds));
-  };
-  for (int n = 0; n < most_programs; ++n) {
+  FactorSearch search(first, tolerance);
+  for (int n = 0; n < most_programs && !search.has_ended(); ++n) {
+    const double factor = search.factor;
     problem.strength = strength_at(factor);
     Shortfall s = shortfall(problem, divided);
     if (!s.solved) return found;
-    if (s.force <= nothing) {
-      found.holds = factor;
-      found.state = std::move(s.state);
-      if (found.fails == 0.0 && factor >= most) {
-        found.end = LimitEnd::no_limit;
-        return found;
-      }
-      if (found.fails == 0.0) {
-        factor *= n == 0 ? 1.01 : n == 1 ? 1.1 : 2.0;
-      } else {
-        factor = above_holds();
-      }
-    } else {
-      found.fails = factor;
-      mechanism = s.state.motion;
-      upwards = 0.0;
-      double next = s.strength > 0.0 ? factor / (1.0 + s.force / s.strength) : 0.0;
-      // Where it has come near, the next step goes to where there is an equilibrium.
-      if (factor - next < 0.5 * tolerance * factor) next = factor * (1.0 - 0.6 * tolerance);
-      if (!(next > 0.1 * factor)) {
-        factor = 0.5 * (found.holds + factor);
-      } else {
-        factor = next > found.holds ? next : above_holds();
-      }
-      if (factor < least) {
-        found.end = LimitEnd::no_equilibrium;
-        found.state.motion = std::move(mechanism);
-        return found;
-      }
+    if (!s.holds()) mechanism = s.state.motion;
+    if (s.hopeless || (!s.holds() && factor <= least)) {
+      found.end = LimitEnd::no_equilibrium;
+      found.state.motion = std::move(mechanism);
+      return found;
     }
-    if (found.fails > 0.0 && found.fails - found.holds <= tolerance * found.fails) {
-      found.end = LimitEnd::found;
-      break;
+    if (s.holds()) found.state = std::move(s.state);
+    search.take(s);
+    if (search.fails == 0.0 && factor >= most) {
+      found.end = LimitEnd::no_limit;
+      found.holds = factor;
+      return found;
     }
   }
+  found.holds = search.holds;
+  found.fails = search.fails;
+  if (search.has_ended()) found.end = LimitEnd::found;
   found.state.motion = std::move(mechanism);
   return found;
 }

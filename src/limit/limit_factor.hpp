@@ -16,9 +16,9 @@ struct StrengthFactor {
   LimitState state;                 ///< forces at `holds`, mechanism at `fails`
 };
 /// strength_at(F): [joints] with their strength divided by F. tolerance: relative width between
-/// holds and fails; first: the factor to begin with. Newton's method on the shortfall as a function
-/// of 1/F, of which the derivative is -D F with the dissipation D of its mechanism, and which is
-/// nearly straight: for cohesion alone it is straight as long as the mechanism stays the same.
+/// holds and fails; first: the factor to begin with. Newton's method on the tension that joints
+/// need (Shortfall) as a function of F, of which the derivative is D/F with the dissipation D of
+/// its mechanism: for friction alone it is straight as long as the mechanism stays the same.
 StrengthFactor strength_factor(LimitProblem problem, const std::vector<char>& divided,
                                const std::function<std::vector<RigidStrength>(double)>& strength_at,
                                double tolerance, double first = 1.0);

@@ -54,6 +54,7 @@ struct LimitProblem {
   /// it is small, the state with the least sum of them is found of those with the same multiplier
   /// or shortfall.
   double thrust_cost = 0.0;
+  const ProgramWatch* watch = nullptr;  ///< may be null
 };
 
 enum class LimitEnd {
@@ -79,15 +80,34 @@ struct LimitState {
 LimitState limit_state(const LimitProblem& problem, bool largest);
 
 /// How far the dead loads are from an equilibrium.
+///
+/// It is measured by the tension that each end of each joint has to be given besides its strength,
+/// in units of the weight of the lighter body beside it, and the friction of that tension: above 0
+/// no forces within the strength balance the loads, and `state.motion` shows it, a mechanism that
+/// joints allow (up to state.violation) and on which the loads do more work than joints dissipate;
+/// below 0 `state.forces` balance them, with all ends pressed by so much. Each body is balanced to
+/// about 1e-9 of its own weight, however heavy others are.
 struct Shortfall {
   bool solved = false;
-  double force =
-      0.0;  ///< least sum of forces on the blocks by which it fails, over the mean weight
-  double strength =
-      0.0;           ///< by how much less that were if all strengths grew in proportion, by part
-  LimitState state;  ///< forces, and the mechanism where the shortfall is above 0
+  double tension = 0.0;   ///< at least -1
+  bool hopeless = false;  ///< no tension helps: there is no equilibrium at any strength
+  double strength = 0.0;  ///< by how much less tension were needed if all strengths grew in
+                          ///< proportion, by part
+  /// Work of the loads less what joints dissipate, in the mechanism, over the sum of weights times
+  /// velocities: the part of gravity by which it is accelerated, about. 0 where nothing moves.
+  double excess = 0.0;
+  LimitState state;
+
+  static constexpr double nothing = 1e-8;  ///< tension and excess by which nothing fails
+  bool holds() const { return solved && !hopeless && tension <= nothing; }
 };
 /// divided: [joints] 1: its strength is among those that grow.
+/// It takes 0.3 ms for 10 bodies, 5 ms for 100 and 0.1 to 0.25 s for 1,000 (walls of bricks, one
+/// core).
 Shortfall shortfall(const LimitProblem& problem, const std::vector<char>& divided);
+
+/// Forces that balance the dead loads, those of the least thrust where this costs something; none
+/// where there are none.
+std::vector<RigidJointForce> forces_in_balance(const LimitProblem& problem);
 
 }  // namespace edda

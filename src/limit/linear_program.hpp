@@ -1,7 +1,9 @@
 // Linear programs. The only header of limit/ that others need in order to have one solved.
 #pragma once
 
+#include <atomic>
 #include <cstddef>
+#include <functional>
 #include <vector>
 
 namespace edda {
@@ -51,14 +53,23 @@ enum class LinearEnd {
 
 struct LinearAnswer {
   LinearEnd end = LinearEnd::failed;
-  double objective = 0.0;
+  double objective = 0.0;     ///< infeasible: by how much the certificate differs
   std::vector<double> value;  ///< [columns]; optimal only
   /// [rows] y: optimal: the prices, by how much the objective grows with the bound of a row.
   /// Infeasible: a certificate, y'A x differs from what the rows allow for all x within bounds.
   std::vector<double> price;
 };
 
-LinearAnswer solve(const LinearProgram& program);
+/// Watches programs while they are solved.
+struct ProgramWatch {
+  const std::atomic<bool>* stop = nullptr;  ///< set from any thread: programs end as failed
+  std::function<void()> after_round{};      ///< called from every thread that solves one
+
+  bool stopped() const { return stop != nullptr && stop->load(std::memory_order_relaxed); }
+};
+
+/// watch: may be null.
+LinearAnswer solve(const LinearProgram& program, const ProgramWatch* watch = nullptr);
 
 /// An upper bound of the objective from any prices, by weak duality.
 struct DualBound {
@@ -66,6 +77,8 @@ struct DualBound {
   double violation = 0.0;  ///< largest reduced cost of a variable that has no bound on that side: 0
                            ///< where `value` is a bound
 };
-DualBound dual_bound(const LinearProgram& program, const std::vector<double>& price);
+/// unit: [columns] a violation counts by it: cost and entries are those of so many; empty: 1.
+DualBound dual_bound(const LinearProgram& program, const std::vector<double>& price,
+                     const std::vector<double>& unit = {});
 
 }  // namespace edda

@@ -141,6 +141,12 @@ std::vector<RigidSupport> supports_of(const Simulation& sim) {
   return all;
 }
 
+/// Of the weights that forces are compared with, m/s2.
+double acceleration_of(const Simulation& sim) {
+  const double g = norm(sim.scene->model.gravity);
+  return g > 0.0 ? g : usual_acceleration;
+}
+
 /// Keeps those supports of a body that do not follow from others. Returns how many are kept.
 std::size_t keep_independent(std::vector<RigidSupport>& supports, Vec2 centroid, double size) {
   constexpr double independent = 1e-6;
@@ -211,15 +217,18 @@ void make_bodies(RigidBlocks& rigid, const Simulation& sim, std::vector<RigidSup
   for (Id first = 0; first < b.size(); ++first) {
     if (group[first].empty() || fixed[first] != 0) continue;
     Vec2 sum;
-    double mass = 0.0;
+    double mass = 0.0, area = 0.0;
     for (const Id i : group[first]) {
       sum += b.mass[i] * centroid(state.x, state.y, i);
       mass += b.mass[i];
+      area += b.area[i];
     }
     if (keep_independent(held[first], sum / mass, rigid.size) == 3) continue;
     rigid.supports.insert(rigid.supports.end(), held[first].begin(), held[first].end());
     for (const Id i : group[first]) rigid.body[i] = static_cast<Id>(rigid.blocks.size());
     rigid.centroid.push_back(sum / mass);
+    rigid.weight.push_back(mass * acceleration_of(sim));
+    rigid.extent.push_back(std::sqrt(area));
     rigid.blocks.push_back(std::move(group[first]));
   }
   std::erase_if(rigid.joints, [&](const RigidJoint& joint) {
@@ -252,18 +261,22 @@ void add_grouted(RigidBlocks& rigid, const Simulation& sim, Id first, Id last) {
 }
 
 /// Bolts, of which those that are anchored at their ends pull and do not push.
-void add_bolts(RigidBlocks& rigid, const Simulation& sim) {
+void add_bolts(RigidBlocks& rigid, const Simulation& sim, BoltForces forces) {
   const Bolts& bolts = sim.attached.bolts;
   for (std::size_t row = 0; row < bolts.rows.size(); ++row) {
     const Id first = bolts.begin[row], last = bolts.begin[row + 1];
     if (bolts.rows[row].grouted) {
       add_grouted(rigid, sim, first, last);
     } else {
-      rigid.ties.push_back({bolts.host[first], bolts.host[first + 1],
-                            node_place(bolts, sim.motion.state, first),
-                            node_place(bolts, sim.motion.state, first + 1),
-                            bar_frame(bolts, sim.motion.state, first).t, 0.0,
-                            std::min(bolts.bars.strength[first], no_bound)});
+      RigidTie tie{bolts.host[first],
+                   bolts.host[first + 1],
+                   node_place(bolts, sim.motion.state, first),
+                   node_place(bolts, sim.motion.state, first + 1),
+                   bar_frame(bolts, sim.motion.state, first).t,
+                   0.0,
+                   std::min(bolts.bars.strength[first], no_bound)};
+      if (forces == BoltForces::as_now) tie.least = tie.most = bolts.bars.force[first];
+      rigid.ties.push_back(tie);
     }
   }
 }
@@ -285,7 +298,7 @@ double unit_weight(const Simulation& sim, std::size_t water) {
 
 }  // namespace
 
-RigidBlocks rigid_blocks(const Simulation& sim) {
+RigidBlocks rigid_blocks(const Simulation& sim, BoltForces bolts) {
   const BlockSet& b = sim.scene->blocks;
   RigidBlocks rigid;
   double sizes = 0.0, masses = 0.0, count = 0.0;
@@ -295,16 +308,41 @@ RigidBlocks rigid_blocks(const Simulation& sim) {
     masses += b.mass[i];
     count += 1.0;
   }
-  const double g = norm(sim.scene->model.gravity);
   if (count > 0.0) {
     rigid.size = sizes / count;
-    rigid.force = masses / count * (g > 0.0 ? g : usual_acceleration);
+    rigid.force = masses / count * acceleration_of(sim);
   }
   for (std::size_t k = 0; k < sim.motion.contacts.size(); ++k) add_joint(rigid, sim, k);
   leave_out_twins(rigid.joints, rigid_gap * rigid.size);
-  add_bolts(rigid, sim);
+  add_bolts(rigid, sim, bolts);
   make_bodies(rigid, sim, supports_of(sim));
   return rigid;
+}
+
+RigidBlocks carrying(const RigidBlocks& rigid, const std::vector<Id>& blocks) {
+  RigidBlocks left = rigid;
+  for (const Id i : blocks) {
+    if (left.body[i] == no_id) continue;
+    for (const Id other : rigid.blocks[rigid.body[i]]) left.body[other] = no_id;
+  }
+  left.blocks.clear();
+  left.centroid.clear();
+  left.weight.clear();
+  left.extent.clear();
+  for (std::size_t r = 0; r < rigid.bodies(); ++r) {
+    if (left.body[rigid.blocks[r].front()] == no_id) continue;
+    for (const Id i : rigid.blocks[r]) left.body[i] = static_cast<Id>(left.blocks.size());
+    left.blocks.push_back(rigid.blocks[r]);
+    left.centroid.push_back(rigid.centroid[r]);
+    left.weight.push_back(rigid.weight[r]);
+    left.extent.push_back(rigid.extent[r]);
+  }
+  const auto fixed = [&](Id i) { return left.body[i] == no_id; };
+  std::erase_if(left.joints, [&](const RigidJoint& joint) {
+    return fixed(joint.block_a) && fixed(joint.block_b);
+  });
+  std::erase_if(left.supports, [&](const RigidSupport& s) { return fixed(s.block); });
+  return left;
 }
 
 RigidForces weights_under(const RigidBlocks& rigid, const Simulation& sim, Vec2 gravity) {

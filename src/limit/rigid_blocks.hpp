@@ -64,14 +64,16 @@ struct RigidBlocks {
   std::vector<std::vector<Id>> blocks;  ///< [bodies] rows of the BlockSet
   std::vector<Id> body;                 ///< [nb] the other way round; no_id: fixed or excavated
   std::vector<Vec2> centroid;           ///< [bodies] m
-  std::vector<RigidJoint> joints;       ///< between different bodies
-  std::vector<RigidSupport> supports;   ///< independent of each other
+  /// [bodies] N and m: the units in which programs count the equilibrium of each body, its weight
+  /// (without gravity that under 1 g) and the square root of its area.
+  std::vector<double> weight, extent;
+  std::vector<RigidJoint> joints;      ///< between different bodies
+  std::vector<RigidSupport> supports;  ///< independent of each other
   std::vector<RigidTie> ties;
   std::vector<RigidGrout> grout;
   std::vector<Id> loose;  ///< blocks that nothing touches or holds; left out
   double size = 1.0;      ///< m, mean square root of the areas of free blocks
-  double force = 1.0;     ///< N, unit in which programs count: mean weight of the free blocks,
-                          ///< without gravity that of 1 g
+  double force = 1.0;     ///< N, mean weight of the free blocks, without gravity that of 1 g
 
   std::size_t bodies() const { return blocks.size(); }
 };
@@ -80,7 +82,14 @@ struct RigidBlocks {
 /// overlap as drawn.
 inline constexpr double rigid_gap = 1e-3;
 
-RigidBlocks rigid_blocks(const Simulation& sim);
+/// What bolts that are anchored at their ends may carry: up to their capacity, as after blocks have
+/// moved and stretched them, or what they carry now. Grouted bolts need no such way.
+enum class BoltForces { to_capacity, as_now };
+
+RigidBlocks rigid_blocks(const Simulation& sim, BoltForces bolts = BoltForces::to_capacity);
+
+/// The same with these blocks fixed where they are.
+RigidBlocks carrying(const RigidBlocks& rigid, const std::vector<Id>& blocks);
 
 /// Weight of the bodies under gravity (m/s2).
 RigidForces weights_under(const RigidBlocks& rigid, const Simulation& sim, Vec2 gravity);

@@ -51,32 +51,33 @@ class Writer {
     form.a.setFromTriplets(entries_.begin(), entries_.end());
     form.b = Eigen::Map<const Eigen::VectorXd>(b_.data(), rows);
     form.c = Eigen::Map<const Eigen::VectorXd>(c_.data(), columns);
+    form.u = Eigen::Map<const Eigen::VectorXd>(u_.data(), columns);
     form.free = free_;
+    form.bounded = bounded_;
   }
 
  private:
   int add_column(bool is_free) {
     c_.push_back(0.0);
+    u_.push_back(0.0);
+    bounded_.push_back(0);
     free_.push_back(is_free ? 1 : 0);
     return static_cast<int>(c_.size()) - 1;
   }
-  /// A column is at most this: with another one it adds up to it.
   void bound(int column, double most) {
-    const int row = static_cast<int>(b_.size());
-    b_.push_back(most);
-    entries_.emplace_back(row, column, 1.0);
-    entries_.emplace_back(row, add_column(false), 1.0);
+    u_[static_cast<std::size_t>(column)] = most;
+    bounded_[static_cast<std::size_t>(column)] = 1;
   }
 
   const LinearProgram& p_;
-  std::vector<double> b_, c_;
-  std::vector<char> free_;
+  std::vector<double> b_, c_, u_;
+  std::vector<char> free_, bounded_;
   std::vector<Entry> entries_;
 };
 
 }  // namespace
 
-StandardForm::StandardForm(const LinearProgram& program) : program_rows(program.rows()) {
+StandardForm::StandardForm(const LinearProgram& program) {
   Writer writer(program);
   for (std::size_t j = 0; j < program.columns(); ++j) origin.push_back(writer.take(j));
   for (std::size_t r = 0; r < program.rows(); ++r) writer.close_row(r);
@@ -89,6 +90,25 @@ std::vector<double> StandardForm::variables(const Eigen::VectorXd& x) const {
   for (const Origin& from : origin)
     values.push_back(from.shift + (from.column < 0 ? 0.0 : from.sign * x[from.column]));
   return values;
+}
+
+Eigen::VectorXd StandardForm::sums(const Eigen::VectorXd& x) const {
+  Eigen::VectorXd all = Eigen::VectorXd::Zero(a.rows());
+  for (Eigen::Index j = 0; j < a.cols(); ++j) {
+    for (Eigen::SparseMatrix<double>::InnerIterator e(a, j); e; ++e)
+      all[e.row()] += e.value() * x[j];
+  }
+  return all;
+}
+
+Eigen::VectorXd StandardForm::worth(const Eigen::VectorXd& y) const {
+  Eigen::VectorXd all(a.cols());
+  for (Eigen::Index j = 0; j < a.cols(); ++j) {
+    double sum = 0.0;
+    for (Eigen::SparseMatrix<double>::InnerIterator e(a, j); e; ++e) sum += e.value() * y[e.row()];
+    all[j] = sum;
+  }
+  return all;
 }
 
 }  // namespace edda

@@ -88,7 +88,8 @@ struct Stage {
   StageEnd until = StageEnd::time;
   double ratio = 1e-5;     ///< criterion of equilibrium: mean resultant over mean contact force
   double duration = 10.0;  ///< s; until equilibrium: at most
-  bool may_last = false;   ///< no duration is given: it may take as many steps as a search (most_steps)
+  bool may_last =
+      false;  ///< no duration is given: it may take as many steps as a search (most_steps)
   static constexpr double crossings = 200.0;  ///< of the model by waves, in the least default of it
   bool to_equilibrium() const { return until != StageEnd::time; }
   /// s, the longest that the whole stage may take; of a ramp `duration` for each value.
@@ -128,6 +129,9 @@ struct FosFails {
   std::optional<double> velocity;      ///< m/s, at its end
 };
 
+/// Target of kh, kv and tilt that act to the left or downwards.
+inline constexpr Index backwards = -2;
+
 /// [fos]: the factor of safety.
 struct Fos {
   std::string stage;                 ///< stage from whose end the trials begin; empty: the last
@@ -135,9 +139,10 @@ struct Fos {
   Vec2 bracket{0.5, 3.0};            ///< factors to begin with, lower and upper
   double tolerance = 0.01;           ///< width of the bracket at the end, over its lower factor
   std::vector<std::string> exclude;  ///< joints that keep their strength
+  double least_area = 0.0;           ///< m2: mechanisms that move less are left out
   FosFails fails;
   Varied varied = Varied::strength;  ///< from `vary`
-  Index target = none;               ///< row of loads, shakings, waters or boundaries
+  Index target = none;  ///< row of loads, shakings, waters or boundaries; or `backwards`
   Where where;
 };
 

@@ -71,9 +71,8 @@ struct Outcome {
   std::size_t on_nothing = 0;      ///< blocks without support at the start
   std::size_t slowed_in_fall = 0;  ///< most blocks at one row that fell freely while local damping
                                    ///< slowed them
-  std::size_t loose = 0;  ///< most loose blocks at the end of a stage until equilibrium, pebbles
-                          ///< excluded
-  std::size_t unsettled = 0;  ///< stages until equilibrium that have ended without one
+  std::size_t loose = 0;           ///< most loose blocks at the end of a stage until equilibrium
+  std::size_t unsettled = 0;       ///< stages until equilibrium that have ended without one
   std::optional<double> rigid_factor;  ///< of safety, of the blocks at the end as rigid ones; none
                                        ///< where nothing asks for it (RunOptions::rigid_factor)
   std::vector<RampOutcome> ramps;

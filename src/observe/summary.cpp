@@ -188,8 +188,7 @@ std::vector<Check> checks_of(const Simulation& sim, const Outcome& o) {
   if (std::any_of(stages.begin(), stages.end(),
                   [](const Stage& s) { return s.to_equilibrium(); })) {
     checks.push_back(limited(std::string(loose_check), static_cast<double>(o.loose), 0.0));
-    checks.push_back(limited(std::string(stage_check),
-                             static_cast<double>(o.unsettled), 0.0));
+    checks.push_back(limited(std::string(stage_check), static_cast<double>(o.unsettled), 0.0));
   }
   if (std::any_of(stages.begin(), stages.end(),
                   [](const Stage& s) { return s.until == StageEnd::collapse; })) {

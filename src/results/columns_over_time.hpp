@@ -123,8 +123,8 @@ constexpr std::array stages{
     C{"ratio", "1",
       "Mean resultant force of the blocks over the mean normal force at the ends of the contacts "
       "that "
-      "carry load, or over the mean of weight and loads where none does; blocks without contact, "
-      "loose blocks and pebbles do not count."},
+      "carry load, or over the mean of weight and loads where none does; blocks without contact "
+      "and loose blocks do not count."},
     C{"largest_ratio", "1", "The same ratio of the block that is furthest from equilibrium."},
     C{"largest_block", "1", "Id of that block; empty where no block counts."},
     kinetic,

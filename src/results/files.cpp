@@ -41,10 +41,24 @@ Fault cannot_write(const std::string& path, int error) {
 namespace {
 
 /// Those that are no tables.
-constexpr std::array<std::string_view, 14> other_files{
-    "summary.json",           "blocks.pvd",    "contacts.pvd",  "model.toml", "checkpoint.h5",
-    "checkpoint.previous.h5", "mechanism.png", "mechanism.svg", "thrust.png", "thrust.svg",
-    "keyblocks.png",          "keyblocks.svg", "curve.png",     "curve.svg"};
+constexpr std::array<std::string_view, 18> other_files{"summary.json",
+                                                       "blocks.pvd",
+                                                       "contacts.pvd",
+                                                       "model.toml",
+                                                       "checkpoint.h5",
+                                                       "checkpoint.previous.h5",
+                                                       "mechanism.png",
+                                                       "mechanism.svg",
+                                                       "thrust.png",
+                                                       "thrust.svg",
+                                                       "keyblocks.png",
+                                                       "keyblocks.svg",
+                                                       "curve.png",
+                                                       "curve.svg",
+                                                       "mechanism_other_end.png",
+                                                       "mechanism_other_end.svg",
+                                                       "mechanism_other_end.csv",
+                                                       "mechanism_joints_other_end.csv"};
 
 bool starts_with_and_is(std::string_view name, std::string_view start, std::string_view end) {
   return name.size() >= start.size() + end.size() && name.starts_with(start) && name.ends_with(end);

@@ -304,7 +304,8 @@ bool Driver::energy_is_out_of_bounds() {
   const double scale = sim_.accounts.largest_energy;
   const double created = scale > 0.0 ? -l.step_change / scale : 0.0;
   const bool runaway = l.kinetic > kinetic_bound * scale && l.kinetic > 0.0;
-  // On the way to an equilibrium nothing but the equilibrium counts; the drift is checked at the end.
+  // On the way to an equilibrium nothing but the equilibrium counts; the drift is checked at the
+  // end.
   const bool created_much =
       !sim_.relaxation.seeks_equilibrium && std::max(l.error, created) > largest_gain;
   if (!created_much && !runaway) return false;

@@ -104,6 +104,8 @@ class Driver {
   void end_stage_before(Event& event);
   /// Records the end of the stage. False: the run is over.
   bool end_stage(Arrival went);
+  /// The same where a stage until equilibrium has lasted as long as it may.
+  bool end_without_equilibrium(bool last);
   /// When the equilibrium was reached.
   std::string equilibrium_of_stage() const;
   std::string not_in_equilibrium() const;

@@ -51,8 +51,7 @@ void Driver::write_end() {
   const std::vector<Stage>& stages = sim_.scene->model.stages;
   const bool may_ask = options_.stop == nullptr || !*options_.stop;
   if (options_.rigid_factor && may_ask && outcome_.status == Status::equilibrium &&
-      outcome_.loose == 0 && !stages.empty() &&
-      stages.back().until == StageEnd::equilibrium)
+      outcome_.loose == 0 && !stages.empty() && stages.back().until == StageEnd::equilibrium)
     outcome_.rigid_factor = options_.rigid_factor(sim_);
   outcome_.wall.cut = run_.cut_seconds;
   scale_wall_times();

@@ -46,11 +46,10 @@ Driver::Equilibrium Driver::look_for_equilibrium() {
                                        : Equilibrium::never;
   }
   if (!judge_.look(sim_) || !gradual_change_complete(sim_)) return Equilibrium::not_yet;
-  if (judge_.all_left(sim_)) return Equilibrium::never;
-  const bool found = now.falling == FallingBlocks::wait ? judge_.all_at_rest()
-                                                        : judge_.in_equilibrium();
-  const bool balanced =
-      found && (balance_of(sim_).mean <= now.ratio || forces_are_rounding(sim_));
+  const bool waits = now.falling == FallingBlocks::wait;
+  if (!waits && judge_.all_left(sim_)) return Equilibrium::never;
+  const bool found = waits ? judge_.all_at_rest() : judge_.in_equilibrium();
+  const bool balanced = found && (balance_of(sim_).mean <= now.ratio || forces_are_rounding(sim_));
   return balanced ? Equilibrium::found : Equilibrium::not_yet;
 }
 
@@ -92,7 +91,8 @@ bool Driver::end_stage(Arrival went) {
     if (ended_by(recorder_.stages(stages_csv(sim_.scene->model, ends_)))) return false;
     save_stage();
   }
-  if (now.to_equilibrium()) outcome_.loose = std::max(outcome_.loose, loose_blocks(sim_).size());
+  if (now.to_equilibrium() && now.falling != FallingBlocks::wait)
+    outcome_.loose = std::max(outcome_.loose, loose_blocks(sim_).size());
   const std::string label = stage_label(sim_.scene->model, stage_);
   if (failed && !reached) {
     end(Status::collapsed, end_of_ramp(false) + not_in_equilibrium());
@@ -105,19 +105,7 @@ bool Driver::end_stage(Arrival went) {
     return false;
   }
   const bool last = stage_ + 1 == plans_.size() || options_.last_stage == stage_;
-  if (!reached && !at_rest) {
-    ++outcome_.unsettled;
-    const std::string not_found = fmt::format(
-        "{} is not in equilibrium after {:.6g} s, the longest that it may last{}: {}{}", label,
-        stage_longest_, now.ramp ? ", at " + ramp_at(ramp_.increment) : "",
-        still_moving(sim_, ends_.back().balance), not_in_equilibrium());
-    if (last || now.ramp || now.otherwise == LooseBlocks::stop) {
-      end(now.otherwise == LooseBlocks::stop ? Status::collapsed : Status::completed, not_found);
-      return false;
-    }
-    if (options_.warn) options_.warn(not_found + "; the run goes on");
-    return true;
-  }
+  if (!reached && !at_rest) return end_without_equilibrium(last);
   if (at_rest && now.otherwise == LooseBlocks::stop) {
     if (const std::string loose = not_in_equilibrium(); !loose.empty()) {
       end(Status::collapsed, stopped_by(loose));
@@ -138,6 +126,23 @@ bool Driver::end_stage(Arrival went) {
   return true;
 }
 
+bool Driver::end_without_equilibrium(bool last) {
+  const Stage& now = stage();
+  ++outcome_.unsettled;
+  const std::string text =
+      fmt::format("{} is not in equilibrium after {:.6g} s, the longest that it may last{}: {}{}",
+                  stage_label(sim_.scene->model, stage_), stage_longest_,
+                  now.ramp ? ", at " + ramp_at(ramp_.increment) : "",
+                  still_moving(sim_, ends_.back().balance), not_in_equilibrium());
+  const bool stops = now.otherwise == LooseBlocks::stop;
+  if (last || now.ramp || stops) {
+    end(stops ? Status::collapsed : Status::completed, text);
+    return false;
+  }
+  if (options_.warn) options_.warn(text + "; the run goes on");
+  return true;
+}
+
 std::string Driver::equilibrium_of_stage() const {
   const double time = sim_.motion.state.time;
   return stage_ == 0
@@ -154,7 +159,7 @@ std::string Driver::stopped_by(const std::string& loose) const {
 
 /// Blocks that are not in equilibrium at the end of the stage, beginning with a comma; else empty.
 std::string Driver::not_in_equilibrium() const {
-  return judge_.left_text(sim_);
+  return stage().falling == FallingBlocks::wait ? std::string() : judge_.left_text(sim_);
 }
 
 std::string Driver::motion_at_end() const {

@@ -32,7 +32,8 @@ int parts_of_change(const Simulation& sim, Varied varied, Index target, double f
   }
   const Vec2 whole = *model.boundaries[static_cast<std::size_t>(target)].displacement;
   const double way = norm(whole) * std::abs(to - from);
-  return count > 0.0 ? std::max(1, static_cast<int>(std::ceil(way * count / (at_a_time * size)))) : 1;
+  return count > 0.0 ? std::max(1, static_cast<int>(std::ceil(way * count / (at_a_time * size))))
+                     : 1;
 }
 
 namespace {

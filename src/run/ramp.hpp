@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
+#include "judge/holding.hpp"
 #include "observe/monitors.hpp"
 #include "observe/outcome.hpp"
-#include "judge/holding.hpp"
 
 namespace edda {
 

@@ -25,8 +25,8 @@ struct StageRecord {
   std::vector<double> convergences;  ///< m at the end, by row of the model's convergences
 };
 
-/// At the start of a stage: no block is loose. In one until equilibrium, adaptive damping is updated
-/// from now on.
+/// At the start of a stage: no block is loose. In one until equilibrium, adaptive damping is
+/// updated from now on.
 void seek_equilibrium(Simulation& sim, const Stage& stage);
 
 StageRecord stage_record(const Simulation& sim, const EnergyBalance& energy, double start,

@@ -87,8 +87,8 @@ Result<Analysed> analyse_limit(const Model& model, const StudyPlan& plan) {
   const bool largest_alone = std::all_of(plan.ask.begin(), plan.ask.end(), [](const Ask& a) {
     return a.of != Analysis::limit || a.value.starts_with("limit.");
   });
-  const Result<LimitResult> found =
-      limit_analysis(model, largest_alone ? LimitExtent::largest_alone : LimitExtent::all);
+  const Result<LimitResult> found = limit_analysis(
+      model, {.extent = largest_alone ? LimitExtent::largest_alone : LimitExtent::all});
   if (!found.ok()) return found.faults();
   const LimitResult& r = found.value();
   Analysed a{limit_summary(model, r), {}};

@@ -38,7 +38,7 @@ struct Accounts {
   StepStatistics steps;
   OpenCloseCounts open_close;  ///< iterations of an implicit step count as passes
   std::vector<SetAside> set_aside;
-  StageSeconds seconds;        ///< sampled; only their ratios are meaningful
+  StageSeconds seconds;  ///< sampled; only their ratios are meaningful
 };
 
 }  // namespace edda

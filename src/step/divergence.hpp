@@ -19,8 +19,8 @@ namespace edda {
 struct Failure {
   std::string message;  ///< one line, with the likely cause
   Id block = no_id;
-  Vec2 place;         ///< model coordinates
-  double time = 0.0;  ///< s
+  Vec2 place;             ///< model coordinates
+  double time = 0.0;      ///< s
   bool of_block = false;  ///< it is the trouble of this block alone: it sinks too deep into others
 };
 

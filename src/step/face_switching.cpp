@@ -236,9 +236,8 @@ class Correction {
     f.was_closed = before.energy > 0.0;
     f.stored = stored_between(before, f.then, f.element, f.at, false);
     const OnBlocks on = on_blocks(c_, b_, f.element.force, k);
-    f.own_work = taken_.h_new *
-                 (mobility(taken_, b_.vertex_block[c_.edge[k]], on.first) +
-                  mobility(taken_, b_.vertex_block[c_.facing[k]], on.second));
+    f.own_work = taken_.h_new * (mobility(taken_, b_.vertex_block[c_.edge[k]], on.first) +
+                                 mobility(taken_, b_.vertex_block[c_.facing[k]], on.second));
     f.alpha = 1.0;
     f.force = f.element.force;
     const CornerForces shear = end_forces(f.at, f.element, {}, {row.shear_a, row.shear_b});

@@ -73,8 +73,8 @@ bool move(Simulation& sim, double h_old, double h_new, const LoadsNow* not_yet_g
   const double h = 0.5 * (h_old + h_new);
   own.damps = step_damping(sim, h, own.strain_damping, own.kicks);
   const DashpotStep dashpot_step{h, 0.5 * own.damps.mass * h,
-                                 own.damps.kicks == nullptr ? nullptr : &own.kicks.mass,
-                                 own.drive.reference, own.drive.push};
+                                 own.damps.kicks ? &own.kicks.mass : nullptr, own.drive.reference,
+                                 own.drive.push};
   const Leap leap = leap_of(sim, h_old, h_new);
   const DashpotScene before{blocks, sim.motion.masses, state, own.old_vx, own.old_vy};
   const BoundarySprings& springs = sim.attached.springs;
@@ -208,8 +208,8 @@ void switch_contacts(Simulation& sim, double h_old) {
   LeapfrogStep& own = sim.leapfrog;
   own.switching.on_fixed = {};
   if (sim.scene->model.solver.switching == Switching::exact) {
-    const StepTaken taken{sim.scene->blocks, motion.masses,   motion.state, motion.pose,
-                          own.old_vx,        own.old_vy,      h_old,        motion.state.step,
+    const StepTaken taken{sim.scene->blocks, motion.masses,    motion.state,   motion.pose,
+                          own.old_vx,        own.old_vy,       h_old,          motion.state.step,
                           own.damps.mass,    own.damps.strain, own.damps.kicks};
     if (own.tiled.ahead) {
       switch_in_tiles(sim, taken);
@@ -358,8 +358,8 @@ void look_leapfrog(const Simulation& sim, Instant& at) {
   const Vec2 ground = ground_velocity(sim);
   const DashpotDrive drive = dashpot_drive(sim, ground, next_free_field(sim, ground, h, h));
   add_dashpots(at.forces, at.on_dashpots, dashpots, {blocks, masses, state, state.vx, state.vy},
-               {h, 0.5 * damping.mass * h, damping.kicks == nullptr ? nullptr : &kicks.mass,
-                drive.reference, drive.push},
+               {h, 0.5 * damping.mass * h, damping.kicks ? &kicks.mass : nullptr, drive.reference,
+                drive.push},
                0, blocks.size());
   advance(at.state,
           {blocks, masses, at.forces.x, at.forces.y, at.state.vx, at.state.vy, h, h, damping});
@@ -372,12 +372,10 @@ void look_leapfrog(const Simulation& sim, Instant& at) {
   for (const Id i : sim.attached.ground.fixed_blocks) store(at_every_node(ground), vx, vy, i);
 }
 
-/// |v|/w + R/(m w^2) with the velocity v of the block, the resultant R of the forces on it, and the
-/// frequency w of the motion of the model (FrequencyEstimate).
+/// v/w + R/(m w^2) with the frequency w of the motion of the block (FrequencyEstimate).
 double remaining_travel_of_leapfrog(const Simulation& sim, std::size_t i, double force) {
-  const State& state = sim.motion.state;
-  const double w = sim.relaxation.estimate.frequency_of(i);
-  const double speed = norm(centroid(state.vx, state.vy, i));
+  const double w = sim.relaxation.estimate.frequency_of(i),
+               speed = norm(centroid(sim.motion.state.vx, sim.motion.state.vy, i));
   if (speed == 0.0 && force == 0.0) return 0.0;
   if (w == 0.0) return std::numeric_limits<double>::infinity();
   return speed / w + force / (inertia_of(sim.motion.masses, i) * w * w);

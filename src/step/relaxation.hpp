@@ -17,12 +17,12 @@ struct Simulation;
 /// a radian of the motion. Over that many steps fast vibrations hardly count; from step to step
 /// they would dominate the slow motion that has furthest to go.
 struct FrequencyEstimate {
-  double frequency = 0.0;   ///< 1/s, of the whole model; 0: not yet known
+  double frequency = 0.0;        ///< 1/s, of the whole model; 0: not yet known
   std::vector<double> of_block;  ///< [nb] 1/s, of each block; empty: not yet known
-  double least = 0.0;       ///< 1/s: half of the frequency when the last change began
-  std::uint64_t since = 0;  ///< step at which the following were recorded
-  Nodes x, y;               ///< [nodes][nb] positions then, m; empty: none yet
-  Nodes fx, fy;             ///< [nodes][nb] forces then, N
+  double least = 0.0;            ///< 1/s: half of the frequency when the last change began
+  std::uint64_t since = 0;       ///< step at which the following were recorded
+  Nodes x, y;                    ///< [nodes][nb] positions then, m; empty: none yet
+  Nodes fx, fy;                  ///< [nodes][nb] forces then, N
 
   /// Frequency by which gradual changes proceed, 1/s: blocks that slide away lower the frequency,
   /// but do not stop these.

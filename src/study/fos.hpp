@@ -46,6 +46,14 @@ struct RigidBracket {
   std::string text;                   ///< one sentence
 };
 
+/// What fails at a factor, where what failed at lower ones no longer counts.
+struct FailedSet {
+  double holds = 0.0, fails = 0.0;  ///< ends of its bracket
+  std::vector<Id> blocks;           ///< that move first, ascending
+  double area = 0.0;                ///< m2, of these
+  std::string text;                 ///< as Mechanism::text
+};
+
 struct FosResult {
   FosStatus status = FosStatus::found;
   std::string message;
@@ -58,9 +66,13 @@ struct FosResult {
   double shaking = 0.0;       ///< s, duration of the ground motion that is varied; 0 without
   std::vector<Trial> trials;  ///< in the order in which one thread makes them
   std::optional<Mechanism> mechanism;  ///< at the lowest factor that failed
-  std::optional<Simulation> failed;    ///< final state at that factor; displacements count from the
-                                       ///< start of the trial
-  std::optional<RigidBracket> rigid;   ///< none where it has no limit or was not asked
+  std::vector<FailedSet> sets;  ///< in the order in which they fail: that of the factor, and what
+                                ///< follows if it is larger than all before together
+  std::optional<double> holds_wide, fails_wide;  ///< bracket where blocks may move by a tenth of
+                                                 ///< their size; none where that is the same
+  std::optional<Simulation> failed;   ///< final state at that factor; displacements count from the
+                                      ///< start of the trial
+  std::optional<RigidBracket> rigid;  ///< none where it has no limit or was not asked
   std::size_t blocks = 0;
   double seconds = 0.0;  ///< s, wall time
   std::vector<std::string> warnings;

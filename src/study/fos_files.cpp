@@ -75,6 +75,14 @@ std::string fos_summary(const Model& model, const FosResult& r, int threads) {
     j.pair("limit", r.rigid->most).pair("pass", r.rigid->below_most);
     j.close().close();
   }
+  j.key("sets").open_list();
+  for (const FailedSet& s : r.sets) {
+    j.open_object().pair("holds", s.holds).pair("fails", s.fails).pair("area", s.area);
+    j.pair("blocks", s.blocks.size()).pair("text", s.text).close();
+  }
+  j.close();
+  j.pair("holds_where_a_tenth_is_too_far", r.holds_wide);
+  j.pair("fails_where_a_tenth_is_too_far", r.fails_wide);
   j.pair("trials", r.trials.size()).pair("blocks", r.blocks);
   j.key("mechanism_found").value(r.mechanism.has_value());
   if (r.mechanism) add_mechanism(j, *r.mechanism);

@@ -6,22 +6,14 @@
 
 namespace edda {
 
-RigidLimit rigid_limit(const Model& model, const Fos& fos, std::size_t blocks) {
+RigidLimit rigid_limit(const Model& model, const Fos& fos, std::size_t blocks,
+                       const LimitOptions& options) {
   constexpr std::size_t most_blocks = 5000;  // for which it takes a small part of the search
   if (fos.varied == Varied::shaking || blocks > most_blocks) return {};
-  Result<LimitResult> found = limit_analysis(model);
-  if (!found.ok()) return {};
+  Result<LimitResult> found = limit_analysis(model, options);
+  if (!found.ok() || found.value().interrupted) return {};
   LimitResult& limit = found.value();
   limit.drawn.reset();
-  if (limit.of_pebbles && limit.without_pebbles &&
-      limit.without_pebbles->status == LimitEnd::found) {
-    limit.largest = *limit.without_pebbles;
-    limit.of_pebbles = false;
-    limit.without_dilation.reset();
-    limit.residual.reset();
-    limit.mechanism.reset();
-    limit.moved.reset();
-  }
   // Of joints of which the friction is larger after failure.
   const double broken = limit.residual.value_or(0.0);
   if (limit.largest.status == LimitEnd::found && broken > limit.largest.upper)
@@ -30,9 +22,10 @@ RigidLimit rigid_limit(const Model& model, const Fos& fos, std::size_t blocks) {
 }
 
 Criterion criterion_at(double factor, const Criterion& usual, const RigidLimit& rigid) {
-  const bool in_equilibrium =
-      rigid && (rigid->largest.status == LimitEnd::no_limit ||
-                (rigid->largest.status == LimitEnd::found && factor <= least_limit(*rigid)));
+  const bool limited = rigid && rigid->largest.status == LimitEnd::found;
+  const bool in_equilibrium = rigid && (limited || rigid->largest.status == LimitEnd::no_limit) &&
+                              !(limited && factor > least_limit(*rigid)) &&
+                              !(rigid->bolts_as_now && factor > *rigid->bolts_as_now);
   Criterion c = usual;
   if (!in_equilibrium) c.allowed = std::min(c.allowed, moved_little);
   return c;
@@ -42,9 +35,7 @@ FosBracket first_bracket(const Fos& fos, const RigidLimit& rigid, const std::vec
   const double reach = std::exp2(FosBracket::widest - 1);
   const Vec2 given = fos.bracket;
   const FosBracket usual{given.x, given.y, fos.tolerance};
-  if (given != Fos{}.bracket || !rigid || rigid->largest.status != LimitEnd::found ||
-      rigid->of_pebbles)
-    return usual;
+  if (given != Fos{}.bracket || !rigid || rigid->largest.status != LimitEnd::found) return usual;
   const double limit = rigid->largest.lower;
   if (!(limit > 0.0) || (limit >= given.x / reach && limit <= given.y * reach)) return usual;
   const bool agrees = std::all_of(seen.begin(), seen.end(), [&](const Trial& trial) {
@@ -66,7 +57,7 @@ std::optional<double> factor_below(const FosBracket& bracket, const RigidLimit& 
   if (!limit || limit->largest.status != LimitEnd::found) return {};
   const double least = least_limit(*limit);
   const bool room = bracket.holds && bracket.fails && least > 0.0 && least < worth * bracket.low;
-  if (!room || limit->of_pebbles) return {};
+  if (!room) return {};
   return std::sqrt(least * bracket.low);
 }
 

@@ -14,9 +14,9 @@ namespace edda {
 
 using RigidLimit = std::optional<LimitResult>;
 
-/// The limits of rigid blocks, with nothing acting on pebbles where these alone would move; nothing
-/// where there is no such analysis.
-RigidLimit rigid_limit(const Model& model, const Fos& fos, std::size_t blocks);
+/// The limits of rigid blocks; nothing where there is no such analysis.
+RigidLimit rigid_limit(const Model& model, const Fos& fos, std::size_t blocks,
+                       const LimitOptions& options);
 
 /// The criterion of the trial of a factor, from blocks that stand as drawn. Blocks that have an
 /// equilibrium as rigid ones by all limits may move by a tenth of their size before they find it:

@@ -57,6 +57,7 @@ Criterion criterion_of(const Fos& fos) {
     c.allowed = std::numeric_limits<double>::infinity();
   }
   c.velocity = fos.fails.velocity;
+  c.least_area = fos.least_area;
   return c;
 }
 
@@ -190,8 +191,8 @@ Result<Staged> staged(const Model& model, const Fos& fos, const FosOptions& opti
   made.start.sim = std::move(sim);
   if (ended) made.stage = *ended + (status == Status::failed ? 1 : 0);  // during the next stage
   FosStart& s = made.start;
-  made.in_equilibrium =
-      (status == Status::equilibrium || status == Status::completed) && outcome.value().unsettled == 0;
+  made.in_equilibrium = (status == Status::equilibrium || status == Status::completed) &&
+                        outcome.value().unsettled == 0;
   made.says = outcome.value().message;
   if (auto fault = nothing_moves(model, s.sim); made.in_equilibrium && fault) return *fault;
   s.warnings = std::move(prepared.value().warnings);
@@ -258,7 +259,8 @@ Loading loading_of(const Fos& fos, const Model& model, const Loading& given, dou
 
 TrialPlan plan_at(double factor, const FosStart& start) {
   TrialPlan plan = start.plan;
-  if (start.as_drawn) plan.criterion = criterion_at(factor, plan.criterion, start.rigid);
+  if (start.as_drawn && !start.wide)
+    plan.criterion = criterion_at(factor, plan.criterion, start.rigid);
   return plan;
 }
 
@@ -270,9 +272,12 @@ Result<FosStart> start_trials(const Model& model, const Fos& fos, const FosOptio
   if (s.status != FosStatus::found) return made;
   const double given = s.given.value;
   Simulation as_given = s.sim;
-  s.rigid = rigid_limit(model, fos, s.sim.scene->blocks.size());
-  Trial trial =
-      run_trial(as_given, plan_at(given, s), s.given, [&] { return stopped(options); });
+  LimitOptions limit;
+  limit.threads = options.threads;
+  limit.stop = options.stop;
+  limit.say = options.say;
+  s.rigid = rigid_limit(model, fos, s.sim.scene->blocks.size(), limit);
+  Trial trial = run_trial(as_given, plan_at(given, s), s.given, [&] { return stopped(options); });
   trial.factor = given;
   if (trial.end == TrialEnd::stopped) {
     s.status = FosStatus::interrupted;

@@ -20,6 +20,7 @@ struct FosStart {
   std::optional<Simulation> failed;  ///< final state of the trial of the factor 1, where that
                                      ///< failed
   std::vector<std::string> warnings;
+  bool wide = false;  ///< blocks may move by a tenth of their size at any factor
 };
 
 /// Loading of a trial of this factor, and how it is made.

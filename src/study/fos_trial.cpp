@@ -57,6 +57,7 @@ class Run {
     const Furthest moved = whole_.furthest(sim_);
     trial_.displacement = moved.value;
     trial_.block = holding_.block() == no_id ? moved.block : holding_.block();
+    trial_.failed = holding_.failed();
     trial_.part = holding_.part();
     trial_.time = sim_.motion.state.time - start_;
     trial_.velocity = fastest_block(sim_).value;
@@ -160,8 +161,8 @@ class Run {
   }
 
   /// Follows the motion that the ground has left, as it is damped in the model, for the time T of
-  /// the largest block. Whether none has moved meanwhile as seen from its neighbours: what slides or
-  /// rocks would go on, and the search for equilibrium would stop it.
+  /// the largest block. Whether none has moved meanwhile as seen from its neighbours: what slides
+  /// or rocks would go on, and the search for equilibrium would stop it.
   bool is_calm() {
     constexpr double small = 0.05;  // of what is little
     constexpr int looks = 20;

@@ -27,8 +27,8 @@ struct TrialPlan {
   double given_scale = 1.0;  ///< of that ground motion, to which factors refer
   Criterion criterion;
   double shaking = 0.0;  ///< s, duration of that ground motion; 0 without
-  Damping quiet;   ///< damping in the search for equilibrium
-  Damping shaken;  ///< damping during ground motion
+  Damping quiet;         ///< damping in the search for equilibrium
+  Damping shaken;        ///< damping during ground motion
 };
 
 enum class TrialEnd {
@@ -51,9 +51,10 @@ struct Trial {
   double part = 0.0;          ///< largest part of its size by which a set of blocks has moved
   double displacement = 0.0;  ///< m, largest of a vertex since the start of the trial
   Id block = no_id;           ///< block of that vertex
+  std::vector<Id> failed;     ///< blocks that failed, ascending; empty where none is named
   double time = 0.0;          ///< s since the start of the trial
-  double velocity = 0.0;    ///< m/s, of the fastest block at the end
-  double unbalanced = 0.0;  ///< mean resultant over mean contact force, as for stages
+  double velocity = 0.0;      ///< m/s, of the fastest block at the end
+  double unbalanced = 0.0;    ///< mean resultant over mean contact force, as for stages
   std::uint64_t steps = 0;
 };
 

@@ -167,6 +167,8 @@ std::optional<double> KeyBlockSearch::factor_alone(std::size_t body, const Surro
   alone.body.assign(rigid_.body.size(), no_id);
   for (const Id i : rigid_.blocks[body]) alone.body[i] = 0;
   alone.centroid = {rigid_.centroid[body]};
+  alone.weight = {rigid_.weight[body]};
+  alone.extent = {rigid_.extent[body]};
   alone.size = rigid_.size;
   alone.force = rigid_.force;
   LimitProblem problem;

@@ -16,6 +16,8 @@
 #include "step/labels.hpp"
 #include "study/fault_at.hpp"
 #include "study/limit_case.hpp"
+#include "study/limit_watch.hpp"
+#include "study/side_by_side.hpp"
 #include "study/staged_model.hpp"
 
 namespace edda {
@@ -72,48 +74,8 @@ std::optional<Fault> without_limit(const Model& model, const Fos& fos) {
   return {};
 }
 
-/// [nb] 1: a free block whose size (square root of the area) is less than a tenth of the mean of
-/// all free blocks.
-std::vector<std::uint8_t> negligible_blocks(const Simulation& sim) {
-  constexpr double small = 0.1;  // of the mean size
-  std::vector<std::uint8_t> are(sim.scene->blocks.size(), 0);
-  double size = 0.0, count = 0.0;
-  for (std::size_t i = 0; i < are.size(); ++i) {
-    if (!is_free(sim.scene->blocks, sim.motion.state, i)) continue;
-    size += std::sqrt(sim.scene->blocks.area[i]);
-    count += 1.0;
-  }
-  for (std::size_t i = 0; i < are.size(); ++i) {
-    are[i] = is_free(sim.scene->blocks, sim.motion.state, i) &&
-             std::sqrt(sim.scene->blocks.area[i]) * count < small * size;
-  }
-  return are;
-}
-
 LimitValue value_of(const LimitCase::Answer& answer) {
   return {answer.end, answer.lower, answer.upper};
-}
-
-/// The blocks moved by the mechanism, its largest velocity `far` (m).
-Simulation moved_by(const Simulation& drawn, const RigidBlocks& rigid,
-                    const std::vector<RigidMotion>& motion, double far) {
-  Simulation moved = drawn;
-  State& state = moved.motion.state;
-  for (std::size_t r = 0; r < motion.size(); ++r) {
-    for (const Id i : rigid.blocks[r]) {
-      NodeVectors x = vectors_of(state.x, state.y, i);
-      // A rotation, not its first order, so that blocks keep their shape.
-      const double c = std::cos(far * motion[r].spin), s = std::sin(far * motion[r].spin);
-      for (Vec2& of_node : x) {
-        const Vec2 arm = of_node - rigid.centroid[r];
-        of_node = rigid.centroid[r] + far * motion[r].velocity + c * arm + s * perp(arm);
-      }
-      store(x, state.x, state.y, i);
-      place_vertices(moved.scene->blocks, state.x, state.y, i, moved.motion.pose.x,
-                     moved.motion.pose.y);
-    }
-  }
-  return moved;
 }
 
 /// The forces of the joints, each at the point through which its resultant goes.
@@ -148,8 +110,9 @@ std::vector<ContactRecord> thrust(const Simulation& sim, const RigidBlocks& rigi
   return all;
 }
 
-const char* quantity(Varied varied) {
-  switch (varied) {
+std::string quantity(const Fos& fos) {
+  const bool back = fos.target == backwards;
+  switch (fos.varied) {
     case Varied::strength:
       return "factor of safety";
     case Varied::load:
@@ -159,18 +122,20 @@ const char* quantity(Varied varied) {
     case Varied::boundary:
       return "multiplier of the traction at the boundary";
     case Varied::tilt:
-      return "tilt in degrees";
+      return back ? "tilt to the left in degrees" : "tilt in degrees";
     case Varied::kh:
-      return "seismic coefficient kh";
+      return back ? "seismic coefficient kh to the left" : "seismic coefficient kh";
     case Varied::kv:
-      return "seismic coefficient kv";
+      return back ? "seismic coefficient kv downwards" : "seismic coefficient kv";
     default:
       return "multiplier of gravity";
   }
 }
 
 std::string message_of(const Fos& fos, const LimitResult& r) {
-  const std::string what = quantity(fos.varied);
+  const std::string what = quantity(fos);
+  if (r.interrupted && r.largest.status == LimitEnd::not_solved)
+    return "interrupted before the limit was found";
   switch (r.largest.status) {
     case LimitEnd::no_limit:
       // Below no weight at all everything moves.
@@ -192,71 +157,160 @@ std::string message_of(const Fos& fos, const LimitResult& r) {
   std::string text = fmt::format("{} {:.5g}", what, r.largest.lower);
   if (r.without_dilation) text += fmt::format(", {:.5g} without dilation", *r.without_dilation);
   if (r.residual) text += fmt::format(", {:.5g} with residual strength", *r.residual);
-  if (r.without_pebbles && r.without_pebbles->status == LimitEnd::found)
-    text += fmt::format(", {:.5g} without pebbles", r.without_pebbles->lower);
+  if (r.bolts_as_now)
+    text += fmt::format(", {:.5g} with the force that bolts have before they are stretched",
+                        *r.bolts_as_now);
   if (r.smallest && r.smallest->status == LimitEnd::found)
-    text += fmt::format("; at the other end {:.5g}", r.smallest->lower);
-  return text;
+    text += fmt::format("; at the other end {:.5g}{}", r.smallest->lower,
+                        r.other_governs ? ", which is nearer" : "");
+  return r.interrupted ? text + "; interrupted before the rest was found" : text;
 }
 
-void add_mechanism(LimitResult& r, const Simulation& drawn, const RigidBlocks& rigid,
-                   const std::vector<RigidMotion>& motion) {
-  constexpr double far = 0.01;     // of the blocks' size
-  constexpr double moving = 0.01;  // nothing moves but the mechanism
-  if (motion.empty()) return;
-  r.moved = moved_by(drawn, rigid, motion, far * rigid.size);
-  Simulation before = drawn;  // whose joints carry what they carry at the limit
-  FaceSet& faces = before.motion.contacts;
-  for (const RigidJoint& joint : rigid.joints) faces.now.energy[joint.face] = 1.0;
-  r.mechanism = mechanism_of(before, *r.moved, moving);
-  const std::vector<std::uint8_t> pebbles = negligible_blocks(drawn);
-  const std::vector<MovingBlock>& moves = r.mechanism->blocks;
-  r.of_pebbles =
-      !moves.empty() && std::all_of(moves.begin(), moves.end(),
-                                    [&](const MovingBlock& m) { return pebbles[m.id] != 0; });
-  if (!r.of_pebbles) return;
-  const Id i = moves.front().id;
-  const std::string others =
-      moves.size() > 1 ? fmt::format(" and {} as small", counted(moves.size() - 1, "other")) : "";
-  r.warnings.push_back(fmt::format(
-      "the mechanism moves {} ({:.3g} m in size, less than a tenth of the mean of all blocks){} "
-      "alone: the limit is that of a pebble, which edda fos does not count; that of larger blocks "
-      "is the limit with nothing acting on pebbles",
-      block_label(drawn.scene->blocks, i), std::sqrt(drawn.scene->blocks.area[i]), others));
+/// Of the mechanism of `largest`, and those before it.
+void take_first(LimitResult& r, LimitMechanisms& mechanisms) {
+  const LimitCase::Answer& answer = mechanisms.answer();
+  r.largest = value_of(answer);
+  r.violation = answer.state.violation;
+  r.mechanisms = mechanisms.found;
+  if (!mechanisms.motion) return;
+  r.mechanism = std::move(mechanisms.motion->mechanism);
+  r.moved = std::move(mechanisms.motion->moved);
+}
+
+/// Those that begin after it.
+void find_later(LimitResult& r, LimitMechanisms& mechanisms, const LimitWatch& watch) {
+  constexpr std::size_t most_shown = 3, most_tried = 30;
+  std::size_t shown = 0;
+  for (std::size_t n = 0; n < most_tried && shown < most_shown; ++n) {
+    if (!mechanisms.find_next() || watch.stopped() || mechanisms.found.back().blocks.empty()) break;
+    if (!mechanisms.found.back().left_out) ++shown;
+  }
+  r.mechanisms = mechanisms.found;
+  if (!r.mechanisms.empty() && r.mechanisms.back().blocks.empty()) r.mechanisms.pop_back();
+}
+
+void find_other_end(LimitResult& r, const Simulation& sim, const Fos& fos, const LimitCase& asked) {
+  const LimitCase::Answer answer = asked.at_end(false, StrengthOf::peak);
+  r.smallest = value_of(answer);
+  if (answer.end == LimitEnd::found)
+    r.other_motion = limit_motion(sim, asked.rigid(), answer.state);
+  const bool about_zero = changes_gravity(fos.varied) && fos.varied != Varied::gravity;
+  r.other_governs =
+      about_zero && answer.end == LimitEnd::found &&
+      (r.largest.status == LimitEnd::no_limit ||
+       (r.largest.status == LimitEnd::found && std::abs(answer.lower) < std::abs(r.largest.lower)));
+}
+
+void find_residual(LimitResult& r, const LimitCase& asked) {
+  const LimitCase::Answer weak = asked.at_end(true, StrengthOf::residual);
+  if (weak.end == LimitEnd::found) r.residual = weak.lower;
+  if (weak.end == LimitEnd::no_equilibrium) r.residual = 0.0;
+}
+
+/// Bolts that have to be stretched carry no more than before until blocks have moved.
+void find_with_bolts_as_now(LimitResult& r, const Simulation& sim, const Fos& fos, bool crushing) {
+  const LimitCase::Answer now =
+      LimitCase(sim, fos, crushing, nullptr, BoltForces::as_now).at_end(true, StrengthOf::peak);
+  if (now.end == LimitEnd::found) r.bolts_as_now = now.lower;
+  if (now.end == LimitEnd::no_equilibrium) r.bolts_as_now = 0.0;
+}
+
+void run_side_by_side(int threads, const std::vector<std::function<void()>>& works) {
+  SideBySide tasks(threads, static_cast<int>(works.size()));
+  std::size_t next = 0;
+  for (std::size_t ended = 0; ended < works.size(); ++ended) {
+    while (next < works.size() && tasks.has_room()) {
+      tasks.begin([&works, next](const std::stop_token&) { works[next](); });
+      ++next;
+    }
+    tasks.wait_for_one();
+  }
 }
 
 /// All but the largest value.
-void add_others(LimitResult& r, const Simulation& sim, const Fos& fos, bool crushing,
-                const LimitCase& asked, const LimitCase::Answer& answer) {
-  constexpr std::size_t most_bodies = 2000;  // up to sixty limits more, of seconds each
-  if (r.blocks <= most_bodies) {
-    r.without_dilation = asked.without_dilation(answer);
-  } else {
-    r.warnings.push_back(fmt::format(
-        "the limit without dilation is left out: the model has more than {} bodies", most_bodies));
-  }
-  if (fos.varied != Varied::strength) r.smallest = value_of(asked.at_end(false, StrengthOf::peak));
-  if (asked.is_brittle()) {
-    const LimitCase::Answer weak = asked.at_end(true, StrengthOf::residual);
-    if (weak.end == LimitEnd::found) r.residual = weak.lower;
-    if (weak.end == LimitEnd::no_equilibrium) r.residual = 0.0;
-  }
+void find_others(LimitResult& r, const Simulation& sim, const Fos& fos, LimitMechanisms& mechanisms,
+                 const LimitOptions& options, LimitWatch& watch) {
+  constexpr std::size_t most_bodies = 2000;  // of limits without dilation
+  const LimitCase asked = mechanisms.at();
+  const LimitCase::Answer answer = mechanisms.answer();
   r.forces = thrust(sim, asked.rigid(), asked.strength_of(answer), answer.state);
   r.drawn = sim;
-  // Without a limit nothing moves: what the last program left is no mechanism.
-  if (answer.end == LimitEnd::found || answer.end == LimitEnd::no_equilibrium)
-    add_mechanism(r, sim, asked.rigid(), answer.state.motion);
-  if (!r.of_pebbles) return;
-  const LimitCase others(sim, fos, crushing, negligible_blocks(sim));
-  r.without_pebbles = value_of(others.at_end(true, StrengthOf::peak));
+  std::vector<std::function<void()>> works;
+  if (r.blocks <= most_bodies) {
+    works.emplace_back([&] {
+      watch.begin("joints that slide without dilating");
+      r.without_dilation = asked.without_dilation(answer);
+    });
+    works.emplace_back([&] {
+      watch.begin("mechanisms that follow");
+      find_later(r, mechanisms, watch);
+    });
+  } else {
+    r.warnings.push_back(fmt::format(
+        "the limit without dilation and the mechanisms that follow the first are left out: the "
+        "model has more than {} bodies",
+        most_bodies));
+  }
+  if (fos.varied != Varied::strength) {
+    works.emplace_back([&] {
+      watch.begin("the other end");
+      find_other_end(r, sim, fos, asked);
+    });
+  }
+  if (asked.is_brittle()) {
+    works.emplace_back([&] {
+      watch.begin("joints with residual strength");
+      find_residual(r, asked);
+    });
+  }
+  if (!sim.attached.bolts.rows.empty()) {
+    works.emplace_back([&] {
+      watch.begin("bolts as they are");
+      find_with_bolts_as_now(r, sim, fos,
+                             sim.scene->model.limit && sim.scene->model.limit->crushing);
+    });
+  }
+  run_side_by_side(options.threads, works);
+}
+
+void add_warnings(LimitResult& r, const Simulation& sim, const RigidBlocks& rigid) {
+  if (sim.scene->model.initial_stress) {
+    r.warnings.push_back(
+        "initial_stress is left out: rigid blocks take whatever forces suit their equilibrium "
+        "best, "
+        "so the limit is too high where the stress of the ground alone holds blocks; edda fos "
+        "takes it in");
+  }
+  if (!sim.attached.bolts.rows.empty()) {
+    r.warnings.push_back(
+        "bolts count with any force up to their capacity; where blocks slide across a bolt and do "
+        "not stretch it, the limit is too high, also without dilation: edda fos finds what the "
+        "bolt carries then");
+  }
+  if (rigid.loose.empty()) return;
+  r.warnings.push_back(fmt::format("{} touched by nothing and left out: {}",
+                                   rigid.loose.size() == 1 ? "a block is" : "some blocks are",
+                                   block_label(sim.scene->blocks, rigid.loose.front())));
+}
+
+std::optional<Fault> nothing_to_fail(const Model& model, const RigidBlocks& rigid) {
+  if (rigid.bodies() > 0) return {};
+  const bool loose = !rigid.loose.empty();
+  return fault_at(model, model.solver.where, "block",
+                  loose ? "no free block touches anything as drawn, so there are no joints to fail"
+                        : "no block is free to move, so nothing can fail",
+                  loose ? "draw the blocks so that they touch, or use edda fos"
+                        : "leave some blocks that are neither fixed nor excavated");
 }
 
 }  // namespace
 
-Result<LimitResult> limit_analysis(const Model& model, LimitExtent extent) {
+Result<LimitResult> limit_analysis(const Model& model, const LimitOptions& options) {
   const auto began = std::chrono::steady_clock::now();
   const Fos fos = model.fos.value_or(Fos{});
   if (auto fault = without_limit(model, fos)) return *fault;
+  LimitWatch watch(options.stop, options.say);
+  watch.begin("the first mechanism");
   Result<PreparedRun> prepared = as_staged(model, fos);
   if (!prepared.ok()) return prepared.faults();
   Simulation& sim = prepared.value().sim;
@@ -264,38 +318,21 @@ Result<LimitResult> limit_analysis(const Model& model, LimitExtent extent) {
   if (SteppedValue* const varied = slow_value(sim.attached.loads.slow, fos.varied, fos.target))
     *varied = {1.0, 1.0};
   const bool crushing = model.limit && model.limit->crushing;
-  const LimitCase asked(sim, fos, crushing);
+  LimitMechanisms mechanisms(sim, LimitCase(sim, fos, crushing, watch.programs()), fos.least_area);
+  const RigidBlocks rigid = mechanisms.at().rigid();
+  if (auto fault = nothing_to_fail(model, rigid)) return *fault;
   LimitResult r;
   r.vary = fos.vary;
-  r.blocks = asked.rigid().bodies();
-  r.joints = asked.rigid().joints.size();
-  r.size = asked.rigid().size;
+  r.blocks = rigid.bodies();
+  r.joints = rigid.joints.size();
+  r.size = rigid.size;
   r.warnings = prepared.value().warnings;
-  if (!sim.attached.bolts.rows.empty()) {
-    r.warnings.push_back(
-        "bolts count with any force up to their capacity; where blocks slide across a bolt and do "
-        "not stretch it, the limit is too high, also without dilation: edda fos finds what the "
-        "bolt carries then");
-  }
-  if (!asked.rigid().loose.empty()) {
-    r.warnings.push_back(
-        fmt::format("{} touched by nothing and left out: {}",
-                    asked.rigid().loose.size() == 1 ? "a block is" : "some blocks are",
-                    block_label(sim.scene->blocks, asked.rigid().loose.front())));
-  }
-  if (r.blocks == 0) {
-    const bool loose = !asked.rigid().loose.empty();
-    return fault_at(model, model.solver.where, "block",
-                    loose
-                        ? "no free block touches anything as drawn, so there are no joints to fail"
-                        : "no block is free to move, so nothing can fail",
-                    loose ? "draw the blocks so that they touch, or use edda fos"
-                          : "leave some blocks that are neither fixed nor excavated");
-  }
-  const LimitCase::Answer answer = asked.at_end(true, StrengthOf::peak);
-  r.largest = value_of(answer);
-  r.violation = answer.state.violation;
-  if (extent == LimitExtent::all) add_others(r, sim, fos, crushing, asked, answer);
+  add_warnings(r, sim, rigid);
+  while (mechanisms.find_next() && mechanisms.found.back().left_out && !watch.stopped()) continue;
+  take_first(r, mechanisms);
+  if (options.extent == LimitExtent::all && !watch.stopped())
+    find_others(r, sim, fos, mechanisms, options, watch);
+  r.interrupted = watch.stopped();
   r.message = message_of(fos, r);
   r.seconds = since(began);
   return r;
@@ -325,9 +362,7 @@ std::optional<double> rigid_factor(const Model& model, const Simulation& end) {
   if (all.rigid().bodies() == 0 || !all.rigid().loose.empty() ||
       !RelativeMotion(sim).sets(end, moved_little, end.relaxation.loose).empty())
     return {};
-  const std::optional<double> factor = largest(all);
-  if (!factor || *factor >= 1.0) return factor;
-  return largest(LimitCase(sim, fos, crushing, negligible_blocks(sim)));
+  return largest(all);
 }
 
 }  // namespace edda

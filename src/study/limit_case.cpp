@@ -16,21 +16,20 @@ constexpr double strength_tolerance = 1e-6;
 }  // namespace
 
 LimitCase::LimitCase(const Simulation& sim, const Fos& fos, bool crushing,
-                     std::vector<std::uint8_t> weightless)
-    : sim_(sim),
-      fos_(fos),
-      crushing_(crushing),
-      weightless_(std::move(weightless)),
-      rigid_(rigid_blocks(sim)) {}
+                     const ProgramWatch* watch, BoltForces bolts)
+    : sim_(sim), fos_(fos), crushing_(crushing), watch_(watch), rigid_(rigid_blocks(sim, bolts)) {}
 
-RigidForces LimitCase::that_act(RigidForces forces) const {
-  if (weightless_.empty()) return forces;
-  for (std::size_t r = 0; r < forces.size(); ++r) {
-    const std::vector<Id>& blocks = rigid_.blocks[r];
-    if (std::all_of(blocks.begin(), blocks.end(), [&](Id i) { return weightless_[i] != 0; }))
-      forces[r] = {};
-  }
-  return forces;
+LimitCase LimitCase::carrying(const std::vector<Id>& blocks) const {
+  LimitCase other = *this;
+  other.rigid_ = edda::carrying(rigid_, blocks);
+  return other;
+}
+
+LimitProblem LimitCase::problem() const {
+  LimitProblem p;
+  p.rigid = &rigid_;
+  p.watch = watch_;
+  return p;
 }
 
 bool LimitCase::is_spared(std::size_t law) const {
@@ -74,8 +73,7 @@ double* LimitCase::factor_of_varied(LoadFactors& factors) const {
 RigidForces LimitCase::dead_loads() const {
   LoadFactors factors = last_factors(sim_);
   if (double* const varied = factor_of_varied(factors)) *varied = 0.0;
-  return that_act(weights_under(rigid_, sim_, gravity_with(0.0)) +
-                  loads_with(rigid_, sim_, factors));
+  return weights_under(rigid_, sim_, gravity_with(0.0)) + loads_with(rigid_, sim_, factors);
 }
 
 /// What the multiplier acts on.
@@ -88,22 +86,22 @@ RigidForces LimitCase::live() const {
     *varied = own == 0.0 ? 1.0 : own;  // 0: not active yet
   }
   // Gravity is linear in the seismic coefficients and in its multiplier.
-  return that_act(weights_under(rigid_, sim_, gravity_with(1.0) - gravity_with(0.0)) +
-                  loads_with(rigid_, sim_, factors));
+  return weights_under(rigid_, sim_, gravity_with(1.0) - gravity_with(0.0)) +
+         loads_with(rigid_, sim_, factors);
 }
 
 RigidForces LimitCase::dead_at(double angle) const {
-  return that_act(weights_under(rigid_, sim_, gravity_with(degrees * angle)) +
-                  loads_with(rigid_, sim_, last_factors(sim_)));
+  return weights_under(rigid_, sim_, gravity_with(degrees * angle)) +
+         loads_with(rigid_, sim_, last_factors(sim_));
 }
 RigidForces LimitCase::turning_at(double angle) const {
-  return that_act(weights_under(rigid_, sim_, perp(gravity_with(degrees * angle))));
+  const double way = fos_.target == backwards ? -1.0 : 1.0;
+  return weights_under(rigid_, sim_, way * perp(gravity_with(degrees * angle)));
 }
 
 LimitCase::Answer LimitCase::solve(bool largest, const StrengthAt& strength_at, double near,
                                    double thrust_cost) const {
-  LimitProblem problem;
-  problem.rigid = &rigid_;
+  LimitProblem problem = this->problem();
   problem.thrust_cost = thrust_cost;
   if (fos_.varied == Varied::strength) {
     problem.dead = dead_loads();
@@ -145,17 +143,14 @@ LimitCase::Answer LimitCase::at_end(bool largest, StrengthOf which) const {
 }
 
 std::vector<RigidJointForce> LimitCase::least_thrust(const Answer& associated) const {
-  constexpr double cost = 1e-2, safely = 0.99, nothing = 1e-6;
-  LimitProblem problem;
-  problem.rigid = &rigid_;
+  constexpr double cost = 1e-2, safely = 0.99;
+  LimitProblem problem = this->problem();
   problem.thrust_cost = cost / static_cast<double>(rigid_.joints.size());
   const bool strength = fos_.varied == Varied::strength;
   problem.strength =
       strength_at(strength ? std::min(1.0, safely * associated.lower) : 1.0, StrengthOf::peak, {});
   problem.dead = fos_.varied == Varied::tilt ? dead_at(0.0) : dead_loads();
-  const Shortfall found = shortfall(problem, std::vector<char>(rigid_.joints.size(), 0));
-  const bool carries = found.solved && found.force <= nothing;
-  return carries ? found.state.forces : std::vector<RigidJointForce>{};
+  return forces_in_balance(problem);
 }
 
 std::optional<double> LimitCase::without_dilation(const Answer& associated) const {
@@ -166,6 +161,26 @@ std::optional<double> LimitCase::without_dilation(const Answer& associated) cons
   const double cost = 1e-5 / static_cast<double>(rigid_.joints.size());
   const std::optional<double> other = without_dilation_from(std::move(thrust), associated, cost);
   return one && other ? std::min(*one, *other) : one ? one : other;
+}
+
+LimitCase::Answer LimitCase::as_multiplier(std::vector<RigidStrength> strength, double factor,
+                                           double thrust_cost) const {
+  LimitProblem problem = this->problem();
+  problem.thrust_cost = thrust_cost;
+  problem.live = dead_loads();
+  problem.dead = RigidForces(problem.live.size());
+  for (RigidStrength& s : strength) {
+    s.shear *= factor;
+    s.tension *= factor;
+    s.compression *= factor;
+  }
+  problem.strength = std::move(strength);
+  LimitState state = limit_state(problem, true);
+  for (RigidJointForce& f : state.forces) {
+    for (double& normal : f.normal) normal /= state.multiplier;
+    f.shear /= state.multiplier;
+  }
+  return {state.end, state.multiplier, state.kinematic, std::move(state)};
 }
 
 std::optional<double> LimitCase::without_dilation_from(std::vector<RigidJointForce> reference,
@@ -179,22 +194,23 @@ std::optional<double> LimitCase::without_dilation_from(std::vector<RigidJointFor
   std::vector<double> values{associated.lower};
   // Part of the new forces that the next program goes by; less where programs alternate. A value
   // changes in proportion to it.
-  constexpr double most_part = 0.5, least_part = 0.1;
-  double part = most_part, last_change = 0.0;
+  constexpr double first_part = 0.5, most_part = 1.0, least_part = 0.1;
+  double part = first_part, last_change = 0.0;
   for (int round = 0; round < most_rounds; ++round) {
-    const Answer answer = solve(
-        true,
-        [&](double factor) {
-          return edda::without_dilation(rigid_, strength_at(factor, StrengthOf::peak, stress),
-                                        reference, kept);
-        },
-        values.back(), thrust_cost);
+    const auto given = [&](double factor) {
+      return edda::without_dilation(rigid_, strength_at(factor, StrengthOf::peak, stress),
+                                    reference, kept);
+    };
+    const Answer answer = fos_.varied == Varied::strength
+                              ? as_multiplier(given(values.back()), values.back(), thrust_cost)
+                              : solve(true, given, values.back(), thrust_cost);
     if (answer.end != LimitEnd::found) return {};
     const double change = answer.lower - values.back();
     values.push_back(answer.lower);
-    if (std::abs(change) <= close * part / most_part * std::abs(answer.lower))
+    if (std::abs(change) <= close * part / first_part * std::abs(answer.lower))
       return std::min(answer.lower, associated.lower);
-    if (change * last_change < 0.0) part = std::max(least_part, 0.7 * part);
+    part = change * last_change < 0.0 ? std::max(least_part, 0.7 * part)
+                                      : std::min(most_part, 1.3 * part);
     last_change = change;
     for (std::size_t k = 0; k < reference.size(); ++k) {
       for (std::size_t end = 0; end < 2; ++end) {
@@ -205,7 +221,7 @@ std::optional<double> LimitCase::without_dilation_from(std::vector<RigidJointFor
   }
   // Programs may alternate between two mechanisms.
   const auto [least, most] = std::minmax_element(values.end() - 4, values.end());
-  if (*most - *least > about * part / most_part * std::abs(*most)) return {};
+  if (*most - *least > about * part / first_part * std::abs(*most)) return {};
   return std::min(*least, associated.lower);
 }
 

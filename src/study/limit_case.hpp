@@ -1,7 +1,6 @@
 // What rigid limit analysis is asked about a model, as programs.
 #pragma once
 
-#include <cstdint>
 #include <functional>
 #include <optional>
 #include <vector>
@@ -15,9 +14,11 @@ namespace edda {
 /// The quantity that [fos] varies, in one state of the model.
 class LimitCase {
  public:
-  /// weightless: [nb] 1: nothing acts on this block; may be empty.
+  /// watch: of its programs; may be null.
   LimitCase(const Simulation& sim, const Fos& fos, bool crushing,
-            std::vector<std::uint8_t> weightless = {});
+            const ProgramWatch* watch = nullptr, BoltForces bolts = BoltForces::to_capacity);
+  /// The same with these blocks carried: they stay where they are.
+  LimitCase carrying(const std::vector<Id>& blocks) const;
 
   /// The value at one end and the state there.
   struct Answer {
@@ -44,6 +45,11 @@ class LimitCase {
   /// near: where a factor of strength may be. thrust_cost: as in LimitProblem.
   Answer solve(bool largest, const StrengthAt& strength_at, double near = 1.0,
                double thrust_cost = 0.0) const;
+  /// The factor of strength of joints whose shear strength hardly depends on their normal force, by
+  /// one program: dividing it by F is as good as multiplying the loads, and all forces, by F.
+  /// strength: at the factor given, which has to be near.
+  Answer as_multiplier(std::vector<RigidStrength> strength, double factor,
+                       double thrust_cost) const;
   /// Forces of the joints before anything is varied, with the least thrust; empty where these loads
   /// have no equilibrium.
   std::vector<RigidJointForce> least_thrust(const Answer& associated) const;
@@ -55,10 +61,9 @@ class LimitCase {
   Vec2 gravity_with(double value) const;
   /// Of what is varied, if that is a load; null otherwise, and where no load acts.
   double* factor_of_varied(LoadFactors& factors) const;
-  /// Without those on weightless bodies.
-  RigidForces that_act(RigidForces forces) const;
   RigidForces dead_at(double angle) const;
   RigidForces turning_at(double angle) const;
+  LimitProblem problem() const;
   RigidForces live() const;
   RigidForces dead_loads() const;
   bool is_spared(std::size_t law) const;
@@ -66,7 +71,7 @@ class LimitCase {
   const Simulation& sim_;
   const Fos& fos_;
   bool crushing_;
-  std::vector<std::uint8_t> weightless_;
+  const ProgramWatch* watch_;
   RigidBlocks rigid_;
 };
 

@@ -7,13 +7,34 @@
 namespace edda {
 namespace {
 
-void add_value(Json& j, std::string_view name, const LimitValue& value) {
-  j.key(name).open_object().pair("status", limit_end_name(value.status));
+/// Opens an object, which is left open.
+void open_value(Json& j, const LimitValue& value) {
+  j.open_object().pair("status", limit_end_name(value.status));
   if (value.status == LimitEnd::found) {
     j.pair("lower", value.lower).pair("upper", value.upper);
   } else {
     j.key("lower").null();
     j.key("upper").null();
+  }
+}
+
+void add_motion(Json& j, const std::optional<Mechanism>& mechanism) {
+  j.key("mechanism_found").value(mechanism.has_value());
+  if (!mechanism) return;
+  j.key("mechanism").open_object().pair("text", mechanism->text);
+  j.pair("blocks", mechanism->blocks.size()).pair("joints", mechanism->joints.size());
+  j.close();
+}
+
+void add_mechanisms(Json& j, const LimitResult& r) {
+  j.key("mechanisms").open_list();
+  for (const LimitMechanism& m : r.mechanisms) {
+    open_value(j, m.value);
+    j.pair("text", m.text).pair("area", m.area).pair("left_out", m.left_out);
+    j.key("blocks").open_list();
+    for (const Id i : m.blocks) j.value(static_cast<std::size_t>(i));
+    j.close();
+    j.close();
   }
   j.close();
 }
@@ -35,20 +56,21 @@ std::string limit_summary(const Model& model, const LimitResult& r) {
   j.open_object().pair("version", version).pair("title", model.title);
   j.pair("status", limit_end_name(r.largest.status)).pair("message", r.message);
   j.pair("vary", r.vary);
-  add_value(j, "limit", r.largest);
-  if (r.smallest) add_value(j, "other_end", *r.smallest);
+  open_value(j.key("limit"), r.largest);
+  j.close();
+  if (r.smallest) {
+    open_value(j.key("other_end"), *r.smallest);
+    add_motion(j, r.other_motion ? std::optional(r.other_motion->mechanism) : std::nullopt);
+    j.pair("governs", r.other_governs).close();
+  }
   j.pair("without_dilation", r.without_dilation);
   j.pair("residual", r.residual);
-  if (r.without_pebbles) add_value(j, "without_pebbles", *r.without_pebbles);
+  j.pair("bolts_as_now", r.bolts_as_now);
   j.pair("flow_rule_violation", r.violation);
   j.pair("crushing", model.limit && model.limit->crushing);
   j.pair("blocks", r.blocks).pair("joints", r.joints);
-  j.key("mechanism_found").value(r.mechanism.has_value());
-  if (r.mechanism) {
-    j.key("mechanism").open_object().pair("text", r.mechanism->text);
-    j.pair("blocks", r.mechanism->blocks.size()).pair("joints", r.mechanism->joints.size());
-    j.close();
-  }
+  add_motion(j, r.mechanism);
+  add_mechanisms(j, r);
   j.key("warnings").open_list();
   for (const std::string& w : r.warnings) j.value(w);
   j.close();

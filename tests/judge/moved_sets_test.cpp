@@ -25,9 +25,9 @@ duration = 1
 std::string block(const std::string& name, double x, double y, double width, double height,
                   const std::string& more = {}) {
   const auto n = [](double v) { return std::to_string(v); };
-  return "[[block]]\nname = '" + name + "'\n" + more + "polygon = [[" + n(x) + ", " + n(y) + "], [" +
-         n(x + width) + ", " + n(y) + "], [" + n(x + width) + ", " + n(y + height) + "], [" + n(x) +
-         ", " + n(y + height) + "]]\n";
+  return "[[block]]\nname = '" + name + "'\n" + more + "polygon = [[" + n(x) + ", " + n(y) +
+         "], [" + n(x + width) + ", " + n(y) + "], [" + n(x + width) + ", " + n(y + height) +
+         "], [" + n(x) + ", " + n(y + height) + "]]\n";
 }
 
 Simulation model(const std::string& blocks) {
@@ -78,9 +78,11 @@ TEST(MovedSets, ABlockSlidesOnGroundHoweverLargeAndFreeThatIs) {
 }
 
 TEST(MovedSets, WhatRidesOnGroundThatSettlesTiltsOrTravelsHasNotMoved) {
-  Simulation sim = model(ground + block("lower", 0, 0, 0.5, 0.25) + block("upper", 0, 0.25, 0.5, 0.25));
+  Simulation sim =
+      model(ground + block("lower", 0, 0, 0.5, 0.25) + block("upper", 0, 0.25, 0.5, 0.25));
   const RelativeMotion motion(sim);
-  for (const char* name : {"ground", "lower", "upper"}) move(sim, id_of(sim, name), {0.3, -0.7}, 0.2);
+  for (const char* name : {"ground", "lower", "upper"})
+    move(sim, id_of(sim, name), {0.3, -0.7}, 0.2);
   // The ground alone is as large as the model: 0.04 of its size as seen from where it was.
   for (const MovedSet& set : motion.sets(sim, 0.01)) EXPECT_EQ(set.blocks.size(), 3u);
 }
@@ -97,8 +99,7 @@ TEST(MovedSets, WhatMovesTogetherIsOneSetOfTheSizeOfItsLargestBlock) {
 
 /// A sliver between two blocks of which one slides by a little: they may have carried it along.
 TEST(MovedSets, ASliverBetweenBlocksThatSlideIsNotWhatMoves) {
-  Simulation sim =
-      model(ground + block("sliver", 0, 0, 0.1, 0.02) + block("slab", 0, 0.02, 4, 1));
+  Simulation sim = model(ground + block("sliver", 0, 0, 0.1, 0.02) + block("slab", 0, 0.02, 4, 1));
   const RelativeMotion motion(sim);
   move(sim, id_of(sim, "slab"), {0.01, 0.0});
   move(sim, id_of(sim, "sliver"), {0.006, 0.0});
@@ -120,7 +121,8 @@ TEST(MovedSets, AColumnThatTurnsAboutItsToeMovesAtItsTop) {
 }
 
 TEST(MovedSets, WhatWasInTheAirWasToLand) {
-  Simulation sim = model(block("ground", -10, -10, 20, 10, "fixed = true\n") + block("high", 0, 3, 1, 1));
+  Simulation sim =
+      model(block("ground", -10, -10, 20, 10, "fixed = true\n") + block("high", 0, 3, 1, 1));
   const RelativeMotion motion(sim);
   move(sim, id_of(sim, "high"), {0.0, -0.5});
   const std::vector<MovedSet> sets = motion.sets(sim, 0.01);

@@ -29,8 +29,7 @@ std::string block_on(const Plane& plane) {
                      at(-4, 1));
 }
 
-/// F = (c L + W cos(a) tan(phi))/(W sin(a)), from wherever the search begins. On the steep plane
-/// the shortfall curves the other way, so that Newton's method ends on the other side.
+/// F = (c L + W cos(a) tan(phi))/(W sin(a)), from wherever the search begins.
 TEST(LimitFactor, OfABlockOnAPlaneTakesFewPrograms) {
   const double weight = 2000.0 * 9.81 * 8.0;
   int of_all = 0;

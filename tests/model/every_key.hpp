@@ -292,6 +292,7 @@ vary = "water:wet"
 bracket = [0.7, 2]
 tolerance = 0.02
 exclude = ["glue"]
+least_area = 0.25
 fails = { displacement = "1 cm", velocity = "2 mm/s" }
 [limit]
 crushing = true

@@ -46,6 +46,9 @@ std::optional<VariedRow> find_varied(const std::string& vary, Place place, const
                                                              {"gravity", Varied::gravity}};
   for (const auto& [word, varied] : by_name) {
     if (vary == word) return VariedRow{varied, none};
+    const bool has_way = changes_gravity(varied) && varied != Varied::gravity;
+    if (has_way && vary.starts_with('-') && vary.substr(1) == word)
+      return VariedRow{varied, backwards};
   }
   const std::size_t colon = std::min(vary.find(':'), vary.size());
   const std::string kind = vary.substr(0, colon);
@@ -61,7 +64,8 @@ std::optional<VariedRow> find_varied(const std::string& vary, Place place, const
   if (kind == "water") return find_in(Varied::water, model.waters);
   if (kind != "boundary") {
     add_fault(reading, place, key, '"' + clipped(vary) + "\" is nothing that can be varied",
-              "give \"strength\", \"tilt\", \"kh\", \"kv\", \"gravity\", \"load:NAME\", "
+              "give \"strength\", \"tilt\", \"kh\", \"kv\", the same with a minus, \"gravity\", "
+              "\"load:NAME\", "
               "\"shaking:NAME\", \"water:NAME\" or \"boundary:NAME\"");
     return {};
   }

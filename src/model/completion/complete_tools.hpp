@@ -48,7 +48,7 @@ void check_local_damping(const Value* damping, const std::string& owner, const S
 /// in the model.
 struct VariedRow {
   Varied varied;
-  Index target;  ///< row of loads, shakings, waters or boundaries; else none
+  Index target;  ///< row of loads, shakings, waters or boundaries; or `backwards`; else none
 };
 std::optional<VariedRow> find_varied(const std::string& vary, Place place, const std::string& key,
                                      Reading& reading);

@@ -260,10 +260,11 @@ constexpr std::array fos_fails_keys{
 
 constexpr std::array fos_keys{
     Key{"stage", at<&Fos::stage>, naming, otherwise("the last one; without stages, the model in equilibrium"), "The stage from whose end the trials begin."},
-    Key{"vary", at<&Fos::vary>, naming, initial, "What the factor acts on: \"strength\" (divided by it), \"load:NAME\", \"shaking:NAME\", \"water:NAME\" (the pressure of that water) or \"boundary:NAME\" (its displacement or traction), multiplied by it; \"gravity\" (the weight), multiplied by it; \"kh\" or \"kv\", a seismic coefficient: a force on each block of that part of its weight, to the right or upwards; \"tilt\", the angle in degrees by which the ground is tilted so that blocks lean to the right."},
+    Key{"vary", at<&Fos::vary>, naming, initial, "What the factor acts on: \"strength\" (divided by it), \"load:NAME\", \"shaking:NAME\", \"water:NAME\" (the pressure of that water) or \"boundary:NAME\" (its displacement or traction), multiplied by it; \"gravity\" (the weight), multiplied by it; \"kh\" or \"kv\", a seismic coefficient: a force on each block of that part of its weight, to the right or upwards; \"tilt\", the angle in degrees by which the ground is tilted so that blocks lean to the right; \"-kh\", \"-kv\" and \"-tilt\" are the same to the left or downwards."},
     Key{"bracket", at<&Fos::bracket>, shape(Kind::point, D::plain, above(0)), initial, "Two factors, the lower one expected to hold and the upper one to fail; widened where they do not."},
     Key{"tolerance", at<&Fos::tolerance>, number(D::plain, above_to(0, 0.5)), initial, "The search ends when the bracket is no wider than this part of its lower factor."},
     Key{"exclude", at<&Fos::exclude>, name_list, initial, "Joints that keep their strength."},
+    Key{"least_area", at<&Fos::least_area>, number(D::area, from(0)), initial, "Mechanisms that move blocks of a smaller area in all are left out, and reported."},
     Key{"fails", at<&Fos::fails>, table, otherwise("by the size of the blocks and gravity"), "When a trial counts as failed."},
 };
 

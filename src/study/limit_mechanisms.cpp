@@ -1,0 +1,77 @@
+#include "study/limit_mechanisms.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace edda {
+namespace {
+
+/// The blocks moved by the mechanism, its largest velocity `far` (m).
+Simulation moved_by(const Simulation& drawn, const RigidBlocks& rigid,
+                    const std::vector<RigidMotion>& motion, double far) {
+  Simulation moved = drawn;
+  State& state = moved.motion.state;
+  for (std::size_t r = 0; r < motion.size(); ++r) {
+    for (const Id i : rigid.blocks[r]) {
+      NodeVectors x = vectors_of(state.x, state.y, i);
+      // A rotation, not its first order, so that blocks keep their shape.
+      const double c = std::cos(far * motion[r].spin), s = std::sin(far * motion[r].spin);
+      for (Vec2& of_node : x) {
+        const Vec2 arm = of_node - rigid.centroid[r];
+        of_node = rigid.centroid[r] + far * motion[r].velocity + c * arm + s * perp(arm);
+      }
+      store(x, state.x, state.y, i);
+      place_vertices(moved.scene->blocks, state.x, state.y, i, moved.motion.pose.x,
+                     moved.motion.pose.y);
+    }
+  }
+  return moved;
+}
+
+}  // namespace
+
+std::optional<LimitMotion> limit_motion(const Simulation& drawn, const RigidBlocks& rigid,
+                                        const LimitState& state) {
+  constexpr double far = 0.01;     // of the blocks' size
+  constexpr double moving = 0.01;  // nothing moves but the mechanism
+  if (state.motion.empty()) return {};
+  Simulation moved = moved_by(drawn, rigid, state.motion, far * rigid.size);
+  Simulation before = drawn;  // whose joints carry what they carry at the limit
+  FaceSet& faces = before.motion.contacts;
+  for (const RigidJoint& joint : rigid.joints) faces.now.energy[joint.face] = 1.0;
+  Mechanism mechanism = mechanism_of(before, moved, moving);
+  return LimitMotion{std::move(mechanism), std::move(moved)};
+}
+
+LimitMechanisms::LimitMechanisms(const Simulation& drawn, LimitCase first, double least_area)
+    : drawn_(drawn), least_area_(least_area), case_(std::move(first)) {}
+
+bool LimitMechanisms::find_next() {
+  if (ended_) return false;
+  if (!found.empty()) {
+    LimitCase next = case_->carrying(found.back().blocks);
+    case_.emplace(std::move(next));
+  }
+  answer_ = case_->at_end(true, StrengthOf::peak);
+  motion.reset();
+  LimitMechanism next;
+  next.value = {answer_.end, answer_.lower, answer_.upper};
+  // Without a limit nothing moves: what the last program left is no mechanism.
+  if (answer_.end == LimitEnd::found || answer_.end == LimitEnd::no_equilibrium)
+    motion = limit_motion(drawn_, case_->rigid(), answer_.state);
+  const BlockSet& b = drawn_.scene->blocks;
+  if (motion) {
+    next.text = motion->mechanism.text;
+    for (const MovingBlock& m : motion->mechanism.blocks) {
+      next.blocks.push_back(m.id);
+      next.area += b.area[m.id];
+    }
+  }
+  next.left_out = motion && next.area < least_area_;
+  ended_ = next.blocks.empty();
+  found.push_back(std::move(next));
+  return true;
+}
+
+}  // namespace edda
