@@ -64,7 +64,7 @@ TEST(Stages, EquilibriumIsThatOfStatics) {
                        "\n[solver]\nmethod = '" + method + "'\n"));
     const Outcome o = run(ready);
     EXPECT_EQ(o.status, Status::equilibrium) << method << o.message;
-    EXPECT_LT(o.time, 2.0);
+    EXPECT_LT(o.time, 5.0);
     const Balance b = balance_of(ready.sim);
     EXPECT_LE(b.mean, ratio);
     EXPECT_EQ(b.resting, 2u);
@@ -146,19 +146,21 @@ TEST(Stages, EquilibriumIsOnTheGroundThatStillMoves) {
       slid[n++] = r.moved("slider").x - r.moved("floor").x;
     }
     EXPECT_GT(std::abs(slid[0]), 0.005);
-    EXPECT_NEAR(slid[1], slid[0], 1e-9);
+    EXPECT_NEAR(slid[1], slid[0], 1e-5 * std::abs(slid[0]));
   }
 }
 
-/// Where no equilibrium exists the run reports this and the blocks that move.
-TEST(Stages, NoEquilibriumIsACollapse) {
+/// Where no equilibrium is found in time the run says so and names the blocks that move: neither
+/// that it stands nor that it has collapsed.
+TEST(Stages, TimeThatRunsOutIsNoVerdict) {
   PreparedRun ready = prepared(tower(
       "[[stage]]\nname = 'settle'\nuntil = 'equilibrium'\nduration = 0.3\n[solver]\n", 0.5, 10.0));
   const Outcome o = run(ready);
-  EXPECT_EQ(o.status, Status::collapsed);
+  EXPECT_EQ(o.status, Status::completed);
+  EXPECT_EQ(o.unsettled, 1u);
   EXPECT_NEAR(o.time, 0.3, 1e-12);
   for (const char* part :
-       {"stage 1 (settle)", "did not reach equilibrium in 0.3 s", "upper", "1 fall freely"}) {
+       {"stage 1 (settle)", "is not in equilibrium after 0.3 s", "upper", "1 fall freely"}) {
     EXPECT_NE(o.message.find(part), std::string::npos) << o.message << " lacks " << part;
   }
 }
@@ -326,7 +328,7 @@ TEST(Stages, LooseBlocksMayEndTheRun) {
   EXPECT_EQ(stopped.status, Status::collapsed);
   EXPECT_LT(stopped.time, 2.0);
   for (const char* part :
-       {"the model is in equilibrium after ", "except for 1 block that falls freely: fastest is ",
+       {"the model is in equilibrium after ", "except for 1 block (1 m2) that has come loose: block ",
         "(falling)", "\"stop\" of stage 1 (settle) ends the run here"}) {
     EXPECT_NE(stopped.message.find(part), std::string::npos) << stopped.message;
   }

@@ -1,5 +1,5 @@
-// What rigid limit analysis says where blocks that deform stand by a sharp tip, or pebbles move
-// alone.
+// What rigid limit analysis says where blocks that deform stand by a sharp tip, or a small
+// block moves first.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -94,8 +94,9 @@ TEST(RigidLimit, IsZeroWhereThereIsNoEquilibriumAtAll) {
   EXPECT_EQ(rigid_factor(model, run.value().sim), 0.0);
 }
 
-/// A block on a slope of 30 degrees, and a pebble on one of 45: the pebble moves first.
-TEST(RigidLimit, DoesWithoutPebblesWhereTheseAloneMove) {
+/// A block on a slope of 30 degrees, and a pebble on one of 45: the pebble moves first, and is left
+/// out where that is asked for.
+TEST(RigidLimit, TellsWhatMovesInOrder) {
   const std::string text =
       "[materials.rock]\ndensity = 2600\nyoung = 1e9\npoisson = 0.25\n[joints.j]\n"
       "friction_angle = 40\n[[block]]\nfixed = true\npolygon = [[0, 0], [20, 0], [20, 10], [12, "
@@ -105,15 +106,22 @@ TEST(RigidLimit, DoesWithoutPebblesWhereTheseAloneMove) {
       "[16, 6.2], [15.9, 6.1]]\n[solver]\nduration = 1\n";
   const Result<LimitResult> limit = limit_analysis(model_of(text));
   ASSERT_TRUE(limit.ok());
-  EXPECT_TRUE(limit.value().of_pebbles);
   EXPECT_NEAR(limit.value().largest.lower, std::tan(40.0 * degree), 1e-4);
   const double larger = std::tan(40.0 * degree) / std::tan(30.0 * degree);
-  ASSERT_TRUE(limit.value().without_pebbles);
-  EXPECT_NEAR(limit.value().without_pebbles->lower, larger, 1e-4);
+  ASSERT_EQ(limit.value().mechanisms.size(), 2u);
+  EXPECT_NEAR(limit.value().mechanisms[1].value.lower, larger, 1e-4);
   const FosResult r = found(text);
   ASSERT_TRUE(r.factor && r.rigid) << r.message;
-  EXPECT_NEAR(*r.factor, larger, 0.01 * larger);
-  EXPECT_NEAR(r.rigid->most, larger, 1e-4);
+  EXPECT_NEAR(*r.factor, std::tan(40.0 * degree), 0.01);
+  ASSERT_EQ(r.sets.size(), 2u) << r.message;
+  EXPECT_NEAR(r.sets[0].area, 0.02, 1e-6);
+  EXPECT_NEAR(r.sets[1].area, 8.0 * std::hypot(1.0, 0.0), 4.0);
+  EXPECT_LE(r.sets[1].holds, larger);
+  EXPECT_NEAR(r.sets[1].fails, larger, 0.02 * larger);
+  const FosResult large = found(text + "[fos]\nleast_area = 0.1\n");
+  ASSERT_TRUE(large.factor && large.rigid) << large.message;
+  EXPECT_NEAR(*large.factor, larger, 0.01 * larger);
+  EXPECT_NEAR(large.rigid->most, larger, 1e-4);
 }
 
 }  // namespace
