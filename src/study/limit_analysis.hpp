@@ -76,6 +76,9 @@ std::optional<double> rigid_factor(const Model& model, const Simulation& end);
 /// size (m).
 bool stands_as_drawn(const Simulation& sim, double size);
 
+/// The warning where a model has initial stress.
+extern const char* const initial_stress_left_out;
+
 /// limit_joints.csv and summary.json.
 std::string limit_joints_csv(const LimitResult& result);
 std::string limit_summary(const Model& model, const LimitResult& result);
