@@ -119,7 +119,8 @@ int limit(const LimitArguments& args) {
   }
   const LimitResult& r = found.value();
   if (r.interrupted) {
-    say([&] { fmt::print(stderr, "{}\n", r.message); });
+    print_answer(args.json, args.quiet, limit_summary(*model, r), r.message,
+                 [&] { fmt::print(stderr, "{}\n", r.message); });
     return exit_code::interrupted;
   }
   if (!args.quiet && !args.json) say([&] { print_warnings(r.warnings); });

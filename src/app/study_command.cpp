@@ -14,6 +14,7 @@
 #include "run/wall_clock.hpp"
 #include "sampling/lead_study.hpp"
 #include "sampling/worker_pool.hpp"
+#include "study/limit_analysis.hpp"
 
 namespace edda {
 namespace {
@@ -83,6 +84,15 @@ std::string this_program() {
   return error ? "/proc/self/exe" : path;
 }
 
+/// What limits of this model leave out, where the study asks for any.
+void warn_of_limits(const StudyPlan& plan, const std::string& model_text) {
+  const auto of_limit = [](const Ask& ask) { return ask.of == Analysis::limit; };
+  if (std::none_of(plan.ask.begin(), plan.ask.end(), of_limit)) return;
+  const Result<Model> model = read_model_text(model_text, plan.model, {}, ReadFor::no_run);
+  if (model.ok() && model.value().initial_stress)
+    say([] { print_warnings({initial_stress_left_out}); });
+}
+
 int study(const StudyArguments& args) {
   const auto bad = [&](const Faults& faults) {
     print(faults, args.json);
@@ -103,6 +113,7 @@ int study(const StudyArguments& args) {
   }
   const auto model_text = file_text(plan.value().model);
   if (const Fault* fault = std::get_if<Fault>(&model_text)) return bad({*fault});
+  if (!args.quiet && !args.json) warn_of_limits(plan.value(), std::get<std::string>(model_text));
   SampleFolder folder(args.folder.empty() ? stem_of(args.study) : args.folder);
   StudyOptions options;
   options.worker = {this_program(), "study", "--worker", folder.path()};

@@ -51,7 +51,7 @@ class Embedding {
       if (watch != nullptr && watch->stopped()) return LinearEnd::failed;
       if (watch != nullptr && watch->after_round) watch->after_round();
     }
-    return best_ < acceptable ? restore() : LinearEnd::failed;
+    return best_ < usable ? restore() : LinearEnd::failed;
   }
   const Point& point() const { return at_; }
   /// By which a certificate that nothing is feasible shows it.
@@ -234,8 +234,9 @@ class Embedding {
     return std::isfinite(at_.x.sum() + at_.y.sum() + at_.tau);
   }
 
-  /// Relative errors of an objective that is as good as it need be, and of one that is of use.
-  static constexpr double wanted = 1e-9, acceptable = 1e-6;
+  /// Relative errors of an objective that is as good as it need be, of one that is good enough
+  /// where rounds no longer gain anything, and of one that is of use where they cannot go on.
+  static constexpr double wanted = 1e-9, acceptable = 1e-6, usable = 1e-5;
   const StandardForm& p_;
   Eigen::Index n_;
   NormalEquations newton_;

@@ -143,7 +143,7 @@ void NormalEquations::solve(const Vector& p, const Vector& q, Vector& x, Vector&
     of_beside[f] = p[beside_columns_[static_cast<std::size_t>(f)]];
   Vector rest = q + p_.sums(inverse_.cwiseProduct(p));
   y = Vector::Zero(q.size());
-  constexpr int most_rounds = 3;
+  constexpr int most_rounds = 6;
   constexpr double exact = 1e-10;
   double before = INFINITY;
   for (int round = 0; round < most_rounds; ++round) {
@@ -163,7 +163,7 @@ void NormalEquations::solve(const Vector& p, const Vector& q, Vector& x, Vector&
     x = std::move(next);
     y = std::move(next_y);
     beside = next_beside;
-    if (size > 0.1 * before || size <= exact * (1.0 + q.lpNorm<Eigen::Infinity>())) break;
+    if (size > 0.5 * before || size <= exact * (1.0 + q.lpNorm<Eigen::Infinity>())) break;
     before = size;
   }
 }

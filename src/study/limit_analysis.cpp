@@ -274,13 +274,7 @@ void find_others(LimitResult& r, const Simulation& sim, const Fos& fos, LimitMec
 }
 
 void add_warnings(LimitResult& r, const Simulation& sim, const RigidBlocks& rigid) {
-  if (sim.scene->model.initial_stress) {
-    r.warnings.push_back(
-        "initial_stress is left out: rigid blocks take whatever forces suit their equilibrium "
-        "best, "
-        "so the limit is too high where the stress of the ground alone holds blocks; edda fos "
-        "takes it in");
-  }
+  if (sim.scene->model.initial_stress) r.warnings.push_back(initial_stress_left_out);
   if (!sim.attached.bolts.rows.empty()) {
     r.warnings.push_back(
         "bolts count with any force up to their capacity; where blocks slide across a bolt and do "
@@ -304,6 +298,11 @@ std::optional<Fault> nothing_to_fail(const Model& model, const RigidBlocks& rigi
 }
 
 }  // namespace
+
+const char* const initial_stress_left_out =
+    "initial_stress is left out of the limit: rigid blocks take whatever forces suit their "
+    "equilibrium best, so the limit is too high where the stress of the ground alone holds blocks; "
+    "edda fos takes it in";
 
 Result<LimitResult> limit_analysis(const Model& model, const LimitOptions& options) {
   const auto began = std::chrono::steady_clock::now();

@@ -72,6 +72,9 @@ Result<LimitResult> limit_analysis(const Model& model, const LimitOptions& optio
 /// and for more than 600 blocks, for which it takes seconds.
 std::optional<double> rigid_factor(const Model& model, const Simulation& end);
 
+/// The warning where a model has initial stress.
+extern const char* const initial_stress_left_out;
+
 /// limit_joints.csv and summary.json.
 std::string limit_joints_csv(const LimitResult& result);
 std::string limit_summary(const Model& model, const LimitResult& result);

@@ -1,6 +1,9 @@
 """edda limit, end to end: what it answers, what is written and what is not. Usage: limit_test.py EDDA"""
 import json
 import math
+import signal
+import subprocess
+import time
 import unittest
 
 from program import Program, read_rows
@@ -28,6 +31,7 @@ class Limit(Program):
         (self.dir / "m.toml").write_text(BLOCK)
         done = self.expect(0, "limit", "m.toml")
         files = ("summary.json columns.csv limit_joints.csv mechanism.csv mechanism_joints.csv mechanism.png mechanism.svg "
+                 "mechanism_other_end.csv mechanism_joints_other_end.csv mechanism_other_end.png mechanism_other_end.svg "
                  "thrust.png thrust.svg model.toml").split()
         self.assertEqual(sorted(p.name for p in (self.dir / "m-limit").iterdir()), sorted(files))
         exact = math.tan(math.radians(30))
@@ -37,6 +41,11 @@ class Limit(Program):
         self.assertAlmostEqual(summary["limit"]["upper"], exact, delta=1e-7)
         self.assertAlmostEqual(summary["other_end"]["lower"], -exact, delta=1e-7)
         self.assertIn("sliding along dry", summary["mechanism"]["text"])
+        self.assertIn("sliding along dry", summary["other_end"]["mechanism"]["text"])
+        self.assertEqual([m["blocks"] for m in summary["mechanisms"]], [[1]])
+        there, back = (read_rows(self.dir / f"m-limit/mechanism{end}.csv")[0]["ux"] for end in ("", "_other_end"))
+        self.assertGreater(float(there), 0.0)
+        self.assertLess(float(back), 0.0)
         self.assertTrue(done.stdout.startswith("seismic coefficient kh 0.57735"), done.stdout)
         joint, = read_rows(self.dir / "m-limit/limit_joints.csv")
         weight = 2000 * 9.81 * 4
@@ -88,6 +97,21 @@ class Limit(Program):
         check, = summary["checks"]
         self.assertTrue(check["pass"])
         self.assertIn("rigid limit analysis: seismic coefficient kh 0.57735", done.stdout)
+
+    def test_reports_its_progress_and_stops_within_a_second(self):
+        wall = BLOCK.replace("[fos]", '[[brick_wall]]\norigin = [10, 0]\ncolumns = 60\nrows = 60\nbrick = [1, 0.5]\n[fos]').replace(
+            "[5, 0], [-5, 0]", "[80, 0], [-5, 0]").replace("[5, -1]", "[80, -1]")
+        (self.dir / "m.toml").write_text(wall)
+        run = self.start("limit", "m.toml", "--threads", "1", "--set", "fos.vary=strength", stderr=subprocess.PIPE, text=True)
+        line = run.stderr.readline()
+        self.assertIn("limit of rigid blocks: the first mechanism, after ", line)
+        asked = time.monotonic()
+        run.send_signal(signal.SIGTERM)
+        run.wait(timeout=30)
+        self.assertLess(time.monotonic() - asked, 5.0)  # 0.1 to 0.3 s where nothing else is running
+        self.assertEqual(run.returncode, 130)
+        self.assertIn("interrupted", run.stderr.read())
+        self.assertEqual([p.name for p in self.dir.iterdir()], ["m.toml"])
 
 
 if __name__ == "__main__":

@@ -54,11 +54,11 @@ TEST(LimitFactor, OfABlockOnAPlaneTakesFewPrograms) {
       EXPECT_LE(f.holds, exact * (1.0 + tolerance)) << first;
       EXPECT_GE(f.fails, exact * (1.0 - tolerance)) << first;
       EXPECT_LE(f.fails - f.holds, tolerance * f.fails) << first;
-      EXPECT_LE(programs, 23) << exact << " from " << first;
+      EXPECT_LE(programs, 8) << exact << " from " << first;
       of_all += programs;
     }
   }
-  EXPECT_LE(of_all, 350);
+  EXPECT_LE(of_all, 160);
 }
 
 }  // namespace

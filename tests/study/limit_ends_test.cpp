@@ -117,7 +117,7 @@ TEST(LimitAnalysis, NamesInitialStressAsLeftOut) {
   const std::string model = stone + slab_on(30.0, 0.0);
   const auto warns = [](const LimitResult& r) {
     return std::any_of(r.warnings.begin(), r.warnings.end(), [](const std::string& w) {
-      return w.find("initial_stress is left out") != std::string::npos;
+      return w.find("initial_stress is left out of the limit") != std::string::npos;
     });
   };
   EXPECT_FALSE(warns(limit_of(model)));
