@@ -16,6 +16,7 @@
 #include "cutting/face_polygons.hpp"
 #include "cutting/idle_lines.hpp"
 #include "cutting/line_work.hpp"
+#include "cutting/near_ends.hpp"
 #include "cutting/noding.hpp"
 #include "cutting/partition.hpp"
 #include "cutting/planar_graph.hpp"
@@ -244,13 +245,45 @@ std::vector<Vec2> fixed_points(const Model& model, const Imports& imports, Vec2 
   return points;
 }
 
+/// Below which width a face between traces or imported lines is none. Lines that ran through one
+/// point, or coincided, before their coordinates were rounded bound faces up to about this wide.
+std::vector<double> thinnest(const LineWork& work) {
+  constexpr double of_unit = 0.9;
+  std::vector<double> widths;
+  for (const LineSource& s : work.sources) {
+    const bool drawn = s.kind == LineKind::trace || s.kind == LineKind::import;
+    widths.push_back(drawn ? of_unit * s.unit : 0.0);
+  }
+  return widths;
+}
+
+/// What became of ends that nearly reach a line.
+struct Joined {
+  std::vector<std::string> notes, warnings;
+};
+
+Joined join_ends(const Model& model, const Imports& imports, LineWork& work, double snap,
+                 bool framed, Vec2 origin) {
+  constexpr double reach = 1e-3;  // of the domain
+  Joined joined;
+  joined.notes = joined_notes(model, work, join_rounded_corners(work, snap, framed));
+  const auto inside = [&](Vec2 p) { return in_rock(work, p, snap); };
+  const auto misses = near_misses(work, snap, reach * size_of(work.outline), framed, inside);
+  joined.warnings = near_miss_warnings(model, work, misses, origin);
+  joined.warnings.insert(joined.warnings.end(), imports.warnings.begin(), imports.warnings.end());
+  return joined;
+}
+
 /// Warnings of joints that cut nothing; for imports in doubtful units that warning instead, since
 /// it may be the cause.
 std::vector<std::string> cut_warnings(const Model& model, const Imports& imports,
                                       const Arrangement& a, const LineWork& work, bool framed,
                                       double snap) {
-  std::vector<std::string> warnings = idle_lines(model, work, a.graph, a.parts, framed,
-                                                 [&](Vec2 p) { return in_rock(work, p, snap); });
+  const auto inside = [&](Vec2 p) { return in_rock(work, p, snap); };
+  std::vector<std::string> warnings = idle_lines(model, work, a.graph, a.parts, framed, inside);
+  for (std::string& shortened : shortened_sets(model, work, a.graph, a.parts, inside)) {
+    warnings.push_back(std::move(shortened));
+  }
   for (std::size_t i = 0; i < model.imports.size(); ++i) {
     const auto doubt = unit_doubt(model, imports, i);
     if (!doubt) continue;
@@ -286,6 +319,7 @@ Result<DomainCut> cut_domain(const Model& model, Vec2 origin, const Imports& imp
                  "the area of the outline without its openings cannot be measured",
                  "simplify the outline or the openings where they nearly touch"};
   }
+  const Joined joined = join_ends(model, imports, work, snap, framed, origin);
   Result<Arrangement> arranged = arrange(model, work, snap, framed);
   if (!arranged.ok()) return arranged.faults();
   Arrangement& a = arranged.value();
@@ -295,9 +329,15 @@ Result<DomainCut> cut_domain(const Model& model, Vec2 origin, const Imports& imp
   cut.report = a.report;
   cut.report.notes = imports.notes;
   cut.report.notes.insert(cut.report.notes.end(), work.notes.begin(), work.notes.end());
+  cut.report.notes.insert(cut.report.notes.end(), joined.notes.begin(), joined.notes.end());
   cut.report.area_in = *area_in;
   cut.report.warnings = cut_warnings(model, imports, a, work, framed, snap);
-  const auto merge_thin = [&] { return merge_slivers(a.graph, a.parts.faces, a.parts.rock, snap); };
+  cut.report.warnings.insert(cut.report.warnings.end(), joined.warnings.begin(),
+                             joined.warnings.end());
+  const std::vector<double> thin = thinnest(work);
+  const auto merge_thin = [&] {
+    return merge_slivers(a.graph, a.parts.faces, a.parts.rock, snap, thin);
+  };
   if (auto faults = merge_all(model, a, work, framed, cut.report.merged, merge_thin)) {
     return *faults;
   }
