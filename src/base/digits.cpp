@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <numeric>
 #include <string_view>
 
 namespace edda {
@@ -20,28 +21,32 @@ int decimals_of(double number) {
   int exponent = 0;
   const char* from = all.data() + e + (all[e + 1] == '+' ? 2 : 1);
   std::from_chars(from, all.data() + all.size(), exponent);
-  return std::max(static_cast<int>(last - point) - exponent, 0);
+  return static_cast<int>(last - point) - exponent;
 }
 
 }  // namespace
 
 void Digits::add(double number) {
   if (!std::isfinite(number)) return;
-  ++with_[static_cast<std::size_t>(number == 0.0 ? 0 : std::min(decimals_of(number), most))];
+  if (number == 0.0) {
+    ++zeros_;
+  } else {
+    ++with_[static_cast<std::size_t>(std::clamp(decimals_of(number), fewest, most) - fewest)];
+  }
 }
 
 double Digits::unit() const {
-  long long all = with_[0], fractions = 0;
-  for (std::size_t d = 1; d < with_.size(); ++d) fractions += with_[d];
-  all += fractions;
-  if (all == 0) return 0.0;
+  const auto whole = with_.begin() - fewest + 1;  // up to here
+  const long long fractions = std::accumulate(whole, with_.end(), 0LL);
+  const long long all = fractions > 0 ? fractions : std::accumulate(with_.begin(), whole, 0LL);
+  if (all == 0) return zeros_ > 0 ? 1.0 : 0.0;
   constexpr long long part = 10;
   long long longer = 0;
-  for (std::size_t d = with_.size() - 1; d > 0; --d) {
-    longer += with_[d];
-    if (longer > 0 && longer * part >= fractions) return std::pow(10.0, -static_cast<double>(d));
+  for (int d = most; d > fewest; --d) {
+    longer += with_[static_cast<std::size_t>(d - fewest)];
+    if (longer > 0 && longer * part >= all) return std::pow(10.0, -d);
   }
-  return 1.0;
+  return std::pow(10.0, -fewest);
 }
 
 }  // namespace edda

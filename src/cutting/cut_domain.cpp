@@ -248,11 +248,12 @@ std::vector<Vec2> fixed_points(const Model& model, const Imports& imports, Vec2 
 /// Below which width a face between traces or imported lines is none. Lines that ran through one
 /// point, or coincided, before their coordinates were rounded bound faces up to about this wide.
 std::vector<double> thinnest(const LineWork& work) {
-  constexpr double of_unit = 0.9;
+  constexpr double of_unit = 0.9, snap_of_unit = 1.5;
   std::vector<double> widths;
   for (const LineSource& s : work.sources) {
     const bool drawn = s.kind == LineKind::trace || s.kind == LineKind::import;
-    widths.push_back(drawn ? of_unit * s.unit : 0.0);
+    const double unit = std::max(s.unit, s.snap.value_or(0.0) / snap_of_unit);
+    widths.push_back(drawn ? of_unit * unit : 0.0);
   }
   return widths;
 }

@@ -57,10 +57,10 @@ using Columns = std::array<std::optional<std::size_t>, places>;
 
 /// What a name says: which end and which coordinate, or the joint. Geographers write START_X,
 /// x_end, fromX, xstart, X0 and X1.
-class Names {
+class TraceNames {
  public:
-  Names() = default;
-  explicit Names(const std::vector<std::string_view>& header) {
+  TraceNames() = default;
+  explicit TraceNames(const std::vector<std::string_view>& header) {
     bool from_zero = false;
     for (const std::string_view field : header) names_.push_back(plain_name(field));
     for (const std::string& name : names_) from_zero = from_zero || name == "x0";
@@ -103,9 +103,9 @@ class Names {
   bool double_ = false;
 };
 
-class Table {
+class TraceTable {
  public:
-  explicit Table(const std::string& path) : path_(path) {}
+  explicit TraceTable(const std::string& path) : path_(path) {}
 
   /// Null where the row is read.
   std::optional<Fault> take(std::string_view row, int line) {
@@ -138,7 +138,7 @@ class Table {
 
  private:
   std::optional<Fault> take_header(const std::vector<std::string_view>& fields, int line) {
-    const Names names(fields);
+    const TraceNames names(fields);
     if (!names.complete()) {
       std::string all;
       for (const std::string_view f : fields) {
@@ -187,7 +187,7 @@ class Table {
 
 Result<Drawing> parse_traces(std::string_view text, const std::string& path) {
   if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
-  Table table(path);
+  TraceTable table(path);
   int line = 0;
   while (!text.empty()) {
     const std::string_view row = trimmed(next_line(text));

@@ -89,7 +89,7 @@ Moving at(const Accelerogram& r, double t) {
 }
 
 /// What the text of a CSV file says before its first row of numbers.
-struct Table {
+struct RecordTable {
   std::string text;            ///< with commas between the columns
   std::size_t columns = 0;     ///< of the first row
   int line = 0;                ///< of the first row
@@ -118,8 +118,8 @@ std::optional<double> unit_in(std::string_view cell) {
 }
 
 /// Names and units may stand in a comment, "# Time (s),Acceleration (g)".
-Table table_of(std::string_view text) {
-  Table table;
+RecordTable record_table(std::string_view text) {
+  RecordTable table;
   int line = 0;
   while (!text.empty()) {
     const std::string_view row = trimmed(next_line(text));
@@ -129,7 +129,9 @@ Table table_of(std::string_view text) {
     double number = 0.0;
     const bool numbers = !row.starts_with('#') && parse_number(next_word(cells, ",;"), number);
     const bool commas = row.find(',') != std::string_view::npos;
-    table.text += (numbers && !commas ? with_commas(row) : std::string(row)) + '\n';
+    const bool names = !numbers && !commas && table.columns == 0 && !row.empty();
+    table.text += (names ? "#" : "") + (numbers && !commas ? with_commas(row) : std::string(row));
+    table.text += '\n';
     if (numbers && table.columns == 0) {
       const std::string first = commas ? std::string(row) : with_commas(row);
       table.columns = static_cast<std::size_t>(std::count(first.begin(), first.end(), ',')) + 1;
@@ -184,7 +186,7 @@ void integrate(Accelerogram& r) {
 
 Result<Accelerogram> parse_acceleration_rows(std::string_view text, const RecordReading& reading,
                                              const std::string& path, const std::string& key) {
-  const Table table = table_of(text);
+  const RecordTable table = record_table(text);
   const bool one = table.columns == 2;
   const std::vector<std::vector<std::string_view>> names{
       {"time", "t"}, {"ax", "x", "acceleration", "acc", "accel", "a"}, {"ay", "y"}};

@@ -56,20 +56,21 @@ std::optional<std::string> after(std::string_view line, std::string_view name) {
   return low.substr(at + name.size());
 }
 
-class Reader {
+class MotionReader {
  public:
-  Reader(std::string_view text, int component, const std::string& path, const std::string& key)
+  MotionReader(std::string_view text, int component, const std::string& path,
+               const std::string& key)
       : lines_(lines_of(text)), component_(component), path_(path), key_(key) {}
 
   std::optional<Result<StrongMotion>> read() {
     if (lines_.empty()) return std::nullopt;
     const std::string first = small(lines_[0]);
     if (first.starts_with("origin time")) return k_net();
+    if (cosmos_data(0, 1)) return cosmos();
     if (first.find("corrected accelerogram") != std::string::npos) return geonet();
     for (std::size_t i = 0; i < std::min<std::size_t>(lines_.size(), 80); ++i) {
       if (small(lines_[i]).starts_with("sampling_interval_s:")) return esm();
     }
-    if (const auto line = cosmos_data(0, 1)) return cosmos();
     return std::nullopt;
   }
 
@@ -344,7 +345,7 @@ std::optional<double> acceleration_unit(std::string_view name) {
 std::optional<Result<StrongMotion>> read_strong_motion(std::string_view text, int component,
                                                        const std::string& path,
                                                        const std::string& key) {
-  return Reader(text, component, path, key).read();
+  return MotionReader(text, component, path, key).read();
 }
 
 }  // namespace edda
