@@ -15,6 +15,7 @@
 #include "cutting/crossings.hpp"
 #include "cutting/face_polygons.hpp"
 #include "cutting/idle_lines.hpp"
+#include "cutting/joint_draws.hpp"
 #include "cutting/line_work.hpp"
 #include "cutting/near_ends.hpp"
 #include "cutting/noding.hpp"
@@ -258,6 +259,21 @@ std::vector<double> thinnest(const LineWork& work) {
   return widths;
 }
 
+/// The sources whose lines end where somebody put their ends: traces, imports and patterns of
+/// traces without deviations.
+std::vector<bool> drawn_by_hand(const Model& model, const LineWork& work) {
+  std::vector<bool> drawn;
+  for (const LineSource& s : work.sources) {
+    bool by_hand = s.kind == LineKind::trace || s.kind == LineKind::import;
+    if (s.kind == LineKind::joint_set) {
+      const JointSet& set = model.joint_sets[static_cast<std::size_t>(s.index)];
+      by_hand = set.trace_length.has_value() && is_regular(set.deviation);
+    }
+    drawn.push_back(by_hand);
+  }
+  return drawn;
+}
+
 /// What became of ends that nearly reach a line.
 struct Joined {
   std::vector<std::string> notes, warnings;
@@ -269,7 +285,8 @@ Joined join_ends(const Model& model, const Imports& imports, LineWork& work, dou
   Joined joined;
   joined.notes = joined_notes(model, work, join_rounded_corners(work, snap, framed));
   const auto inside = [&](Vec2 p) { return in_rock(work, p, snap); };
-  const auto misses = near_misses(work, snap, reach * size_of(work.outline), framed, inside);
+  const auto misses = near_misses(work, drawn_by_hand(model, work), snap,
+                                  reach * size_of(work.outline), framed, inside);
   joined.warnings = near_miss_warnings(model, work, misses, origin);
   joined.warnings.insert(joined.warnings.end(), imports.warnings.begin(), imports.warnings.end());
   return joined;

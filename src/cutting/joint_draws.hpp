@@ -20,6 +20,11 @@ namespace edda {
 /// the one nearest to the domain.
 inline constexpr double far_away = 1000.0;
 
+/// Whether each trace is where the means put it.
+inline bool is_regular(const Deviation& d) {
+  return d.angle == 0.0 && d.spacing == 0.0 && d.trace_length == 0.0 && d.gap == 0.0;
+}
+
 /// A set on its section, relative to the local origin.
 struct DrawnSet {
   const JointSet& set;
@@ -30,11 +35,7 @@ struct DrawnSet {
   std::uint64_t key;
 
   double least_spacing() const { return 1e-3 * set.spacing; }
-  /// Each trace is where the means put it.
-  bool regular() const {
-    const Deviation& v = set.deviation;
-    return v.angle == 0.0 && v.spacing == 0.0 && v.trace_length == 0.0 && v.gap == 0.0;
-  }
+  bool regular() const { return is_regular(set.deviation); }
 };
 
 DrawnSet drawn_set(const JointSet& set, Vec2 origin);

@@ -9,6 +9,7 @@
 #include "base/rings.hpp"
 #include "base/text.hpp"
 #include "cutting/geos.hpp"
+#include "cutting/idle_lines.hpp"
 #include "cutting/planar_graph.hpp"
 
 namespace edda {
@@ -237,15 +238,21 @@ struct FreeEnd {
   int node = 0, before = 0;
 };
 
-std::vector<FreeEnd> free_ends(const Net& net, const LineWork& work) {
+std::vector<FreeEnd> free_ends(const Net& net, const LineWork& work,
+                               const std::vector<bool>& counted) {
   std::vector<FreeEnd> ends;
   for (std::size_t i = 0; i < net.corners.size(); ++i) {
     const std::vector<int>& c = net.corners[i];
-    if (!is_drawn(work.sources[at(work.lines[i].source)].kind) || c.front() == c.back()) continue;
+    if (!counted[at(work.lines[i].source)] || c.front() == c.back()) continue;
     if (net.nodes[at(c.front())].lines == 1) ends.push_back({c.front(), c[1]});
     if (net.nodes[at(c.back())].lines == 1) ends.push_back({c.back(), c[c.size() - 2]});
   }
   return ends;
+}
+
+/// What messages call the table of a source; all traces are one.
+std::string name_of(const Model& model, const LineSource& source) {
+  return source.kind == LineKind::trace ? "trace" : table_of(model, source);
 }
 
 /// 1, 2 or 5 times a power of ten, not below x.
@@ -259,8 +266,8 @@ double round_up(double x) {
 
 }  // namespace
 
-std::vector<int> join_rounded_corners(LineWork& work, double snap, bool framed) {
-  std::vector<int> moved(work.sources.size(), 0);
+std::vector<MovedCorners> join_rounded_corners(LineWork& work, double snap, bool framed) {
+  std::vector<MovedCorners> moved(work.sources.size());
   const bool any = std::any_of(work.sources.begin(), work.sources.end(), [](const LineSource& s) {
     return s.unit > 0.0 || s.snap.value_or(0.0) > 0.0;
   });
@@ -280,39 +287,38 @@ std::vector<int> join_rounded_corners(LineWork& work, double snap, bool framed) 
   }
   std::erase_if(work.lines, [](const LineString& line) { return line.points.size() < 2; });
   for (std::size_t n = 0; n < net.nodes.size(); ++n) {
-    if (!(net.nodes[n].place == before[n].place)) ++moved[at(net.nodes[n].source)];
+    const double by = norm(net.nodes[n].place - before[n].place);
+    if (!(by > 0.0)) continue;
+    MovedCorners& of_source = moved[at(net.nodes[n].source)];
+    ++of_source.count;
+    of_source.farthest = std::max(of_source.farthest, by);
   }
   return moved;
 }
 
 std::vector<std::string> joined_notes(const Model& model, const LineWork& work,
-                                      const std::vector<int>& moved) {
-  struct Sum {
-    std::size_t corners = 0;
-    double within = 0.0;
-  };
-  std::map<std::string, Sum> sums;
+                                      const std::vector<MovedCorners>& moved) {
+  std::map<std::string, MovedCorners> sums;
   for (std::size_t i = 0; i < moved.size(); ++i) {
-    const LineSource& s = work.sources[i];
-    if (moved[i] == 0) continue;
-    Sum& sum = sums[s.kind == LineKind::import ? model.imports[at(s.index)].where.key : "trace"];
-    sum.corners += at(moved[i]);
-    sum.within = std::max(sum.within, s.snap.value_or(s.unit));
+    if (moved[i].count == 0) continue;
+    MovedCorners& sum = sums[name_of(model, work.sources[i])];
+    sum.count += moved[i].count;
+    sum.farthest = std::max(sum.farthest, moved[i].farthest);
   }
   std::vector<std::string> notes;
   for (const auto& [key, sum] : sums) {
-    notes.push_back(key + ": " + counted(sum.corners, "corner") + " moved onto lines that " +
-                    (sum.corners == 1 ? "it" : "they") +
-                    " missed by the rounding of coordinates, or the snap, of " +
-                    number_text(sum.within, 3) + " m");
+    notes.push_back(key + ": " + counted(sum.count, "corner") + " moved by up to " +
+                    number_text(sum.farthest, 2) + " m onto lines that " +
+                    (sum.count == 1 ? "it" : "they") + " missed by no more than rounding, or snap");
   }
   return notes;
 }
 
-std::vector<NearMiss> near_misses(const LineWork& work, double snap, double reach, bool framed,
+std::vector<NearMiss> near_misses(const LineWork& work, const std::vector<bool>& counted,
+                                  double snap, double reach, bool framed,
                                   const std::function<bool(Vec2)>& in_rock) {
   const Net net = net_of(work);
-  const std::vector<FreeEnd> ends = free_ends(net, work);
+  const std::vector<FreeEnd> ends = free_ends(net, work, counted);
   std::vector<NearMiss> misses;
   if (ends.empty()) return misses;
   Nearby nearby(net, std::max(size_of(work.outline) / 64.0, 4.0 * reach));
@@ -335,18 +341,17 @@ std::vector<NearMiss> near_misses(const LineWork& work, double snap, double reac
 
 std::vector<std::string> near_miss_warnings(const Model& model, const LineWork& work,
                                             const std::vector<NearMiss>& misses, Vec2 origin) {
-  std::map<std::pair<LineKind, Index>, std::vector<NearMiss>> of_table;
+  std::map<std::string, std::vector<NearMiss>> of_table;
   for (const NearMiss& miss : misses) {
-    const LineSource& s = work.sources[at(miss.source)];
-    of_table[{s.kind, s.kind == LineKind::import ? s.index : 0}].push_back(miss);
+    of_table[name_of(model, work.sources[at(miss.source)])].push_back(miss);
   }
   std::vector<std::string> warnings;
-  for (const auto& [table, found] : of_table) {
+  for (const auto& [key, found] : of_table) {
     const auto nearer = [](const NearMiss& a, const NearMiss& b) { return a.gap < b.gap; };
     const NearMiss nearest = *std::min_element(found.begin(), found.end(), nearer);
     const double widest = std::max_element(found.begin(), found.end(), nearer)->gap;
-    const bool one = found.size() == 1, import = table.first == LineKind::import;
-    const std::string key = import ? model.imports[at(table.second)].where.key : "trace";
+    const bool one = found.size() == 1;
+    const bool import = work.sources[at(nearest.source)].kind == LineKind::import;
     const Vec2 p = nearest.at + origin;
     warnings.push_back(
         key + ": " + counted(found.size(), "end") + " of its lines " + (one ? "stops" : "stop") +

@@ -10,18 +10,22 @@
 
 namespace edda {
 
+struct MovedCorners {
+  std::size_t count = 0;
+  double farthest = 0.0;  ///< m
+};
+
 /// Moves corners of traces and imported lines onto the line that they miss by no more than rounding
 /// can have moved both, so that what met before the coordinates were rounded meets again. All lines
 /// that share a corner move together; other lines do not move. Ends of imports with a snap of their
 /// own move onto the nearest corner, else line, within it instead. Corners closer than `snap` to a
-/// line stay: noding joins them. `framed`: the
-/// outline is only the box around the lines. Returns, per source, how many corners moved. O(n log
-/// n).
-std::vector<int> join_rounded_corners(LineWork& work, double snap, bool framed);
+/// line stay: noding joins them. `framed`: the outline is only the box around the lines. Returns
+/// what moved, per source. O(n log n).
+std::vector<MovedCorners> join_rounded_corners(LineWork& work, double snap, bool framed);
 
 /// A sentence per table of the model about corners that moved.
 std::vector<std::string> joined_notes(const Model& model, const LineWork& work,
-                                      const std::vector<int>& moved);
+                                      const std::vector<MovedCorners>& moved);
 
 /// The free end of a trace or of an imported line, and what it misses.
 struct NearMiss {
@@ -30,9 +34,10 @@ struct NearMiss {
   Index source = 0;
 };
 
-/// The free ends for which `in_rock` holds and that end less than `reach` short of another line.
-/// Ends that have crossed that line are none.
-std::vector<NearMiss> near_misses(const LineWork& work, double snap, double reach, bool framed,
+/// The free ends for which `in_rock` holds and that end less than `reach` short of another line, of
+/// the sources that are `counted`. Ends that have crossed that line are none.
+std::vector<NearMiss> near_misses(const LineWork& work, const std::vector<bool>& counted,
+                                  double snap, double reach, bool framed,
                                   const std::function<bool(Vec2)>& in_rock);
 
 /// A sentence per source about its near misses: how many, where the nearest is, and the snap that

@@ -145,6 +145,7 @@ struct Accelerogram {
   std::vector<double> time;        ///< s, ascending
   std::vector<Vec2> acceleration;  ///< m/s2
   std::vector<Vec2> velocity;      ///< m/s
+  bool unit_known = false;         ///< the file or the model states the unit of its accelerations
 };
 
 /// Where an acceleration comes from: a file, or a sine.

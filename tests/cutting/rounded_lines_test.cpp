@@ -175,7 +175,8 @@ TEST(RoundedLines, JointsOnAFault) {
   ASSERT_TRUE(cut.ok());
   EXPECT_EQ(cut.value().blocks.size(), 5U);
   ASSERT_EQ(cut.value().report.notes.size(), 1U);
-  EXPECT_NE(cut.value().report.notes[0].find("trace: 3 corners moved"), std::string::npos);
+  EXPECT_NE(cut.value().report.notes[0].find("trace: 3 corners moved by up to 0.00"),
+            std::string::npos);
   EXPECT_TRUE(cut.value().report.warnings.empty());
 }
 

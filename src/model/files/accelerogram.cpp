@@ -160,6 +160,7 @@ bool has_peer_head(std::string_view text) {
 
 Accelerogram accelerogram_of(const StrongMotion& motion, const RecordReading& reading) {
   Accelerogram record;
+  record.unit_known = true;
   const Vec2 along = reading.unit.value_or(motion.unit) * direction_of(reading.direction);
   for (const double a : motion.acceleration) {
     record.time.push_back(motion.step * static_cast<double>(record.time.size()));
@@ -214,6 +215,7 @@ Result<Accelerogram> parse_acceleration_rows(std::string_view text, const Record
                     "time (s),acceleration (g)");
   }
   Accelerogram record;
+  record.unit_known = unit.has_value();
   const double size = unit.value_or(1.0);
   const Vec2 along = direction_of(reading.direction);
   for (std::size_t k = 0; k < rows.value().size(); k += shape.columns) {
@@ -256,6 +258,7 @@ Result<Accelerogram> parse_at2(std::string_view text, const RecordReading& readi
     return fault_in(path, key, 0, "has no line with NPTS and DT at its head", records_read);
   }
   Accelerogram record;
+  record.unit_known = true;
   const Vec2 along = unit * direction_of(reading.direction);
   while (!text.empty()) {
     std::string_view row = next_line(text);
