@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <map>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
@@ -9,6 +10,7 @@
 #include "base/digits.hpp"
 #include "base/place.hpp"
 #include "base/rings.hpp"
+#include "base/text.hpp"
 #include "cutting/joint_sets.hpp"
 #include "cutting/random_lines.hpp"
 #include "cutting/strata_bound.hpp"
@@ -73,6 +75,19 @@ void add_rounding(const Model& model, const Imports& imports, LineWork& work) {
     if (s.kind == LineKind::outline) unit = last_digit({&model.domain->given_outline, 1});
     s.unit = rounding(unit, size);
   }
+}
+
+std::optional<Fault> coarse_snap(const Model& model, const LineWork& work) {
+  constexpr double largest_part = 1e-2;  // as of domain.snap
+  const double most = largest_part * size_of(work.outline);
+  for (const Import& import : model.imports) {
+    if (import.snap.value_or(0.0) <= most) continue;
+    return Fault{member_of(import.where, "snap"),
+                 number_text(*import.snap) + " m is too coarse for a domain of " +
+                     number_text(size_of(work.outline)) + " m",
+                 "give at most " + number_text(most, 3)};
+  }
+  return std::nullopt;
 }
 
 /// One source per import and law, in the order of the lines.
@@ -144,6 +159,7 @@ Result<LineWork> line_work(const Model& model, Vec2 origin, double snap, const I
   }
   add_ring(work, work.outline, add_source(work, LineKind::outline, 0, none));
   add_rounding(model, imports, work);
+  if (auto fault = coarse_snap(model, work)) return *fault;
   return work;
 }
 

@@ -3,13 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <utility>
 
 #include "base/rings.hpp"
-#include "base/text.hpp"
 #include "cutting/geos.hpp"
-#include "cutting/idle_lines.hpp"
 #include "cutting/planar_graph.hpp"
 
 namespace edda {
@@ -18,6 +15,7 @@ namespace {
 struct NetSegment {
   int from = 0, to = 0;  ///< nodes
   Index source = 0;
+  std::size_t line = 0;
 };
 
 /// A point at which lines have corners.
@@ -29,6 +27,7 @@ struct NetNode {
   bool end = false;    ///< a line ends here
   bool moves = true;
   Index source = 0;
+  std::size_t line = 0;  ///< one of its lines
 };
 
 /// The line work as corners that lines share.
@@ -85,7 +84,8 @@ Net net_of(const LineWork& work) {
       node.end = node.end || (!closed && (k == 0 || last));
       node.moves = node.moves && is_drawn(source.kind);
       node.source = number;
-      if (!last) net.segments.push_back({corners[k], corners[k + 1], number});
+      node.line = i;
+      if (!last) net.segments.push_back({corners[k], corners[k + 1], number, i});
     }
   }
   return net;
@@ -185,6 +185,8 @@ class Joiner {
     for (const std::size_t k : nearby_.of(n, reach_)) {
       const NetSegment& s = net_.segments[k];
       const double unit = work_.sources[at(s.source)].unit;
+      // Small curves stay what they are: their corners lie this close to other pieces of them.
+      if (s.line == node.line && !node.end) continue;
       if (!is_target(s) || (node.unit == 0.0 && unit == 0.0)) continue;
       const Vec2 a = net_.nodes[at(s.from)].place, b = net_.nodes[at(s.to)].place;
       if (a == b) continue;
@@ -250,27 +252,12 @@ std::vector<FreeEnd> free_ends(const Net& net, const LineWork& work,
   return ends;
 }
 
-/// What messages call the table of a source; all traces are one.
-std::string name_of(const Model& model, const LineSource& source) {
-  return source.kind == LineKind::trace ? "trace" : table_of(model, source);
-}
-
-/// 1, 2 or 5 times a power of ten, not below x.
-double round_up(double x) {
-  const double power = std::pow(10.0, std::floor(std::log10(x)));
-  for (const double m : {1.0, 2.0, 5.0}) {
-    if (x <= m * power) return m * power;
-  }
-  return 10.0 * power;
-}
-
 }  // namespace
 
 std::vector<MovedCorners> join_rounded_corners(LineWork& work, double snap, bool framed) {
   std::vector<MovedCorners> moved(work.sources.size());
-  const bool any = std::any_of(work.sources.begin(), work.sources.end(), [](const LineSource& s) {
-    return s.unit > 0.0 || s.snap.value_or(0.0) > 0.0;
-  });
+  const bool any = std::any_of(work.sources.begin(), work.sources.end(),
+                               [](const LineSource& s) { return is_drawn(s.kind); });
   if (!any) return moved;
   Net net = net_of(work);
   const std::vector<NetNode> before = net.nodes;
@@ -296,24 +283,6 @@ std::vector<MovedCorners> join_rounded_corners(LineWork& work, double snap, bool
   return moved;
 }
 
-std::vector<std::string> joined_notes(const Model& model, const LineWork& work,
-                                      const std::vector<MovedCorners>& moved) {
-  std::map<std::string, MovedCorners> sums;
-  for (std::size_t i = 0; i < moved.size(); ++i) {
-    if (moved[i].count == 0) continue;
-    MovedCorners& sum = sums[name_of(model, work.sources[i])];
-    sum.count += moved[i].count;
-    sum.farthest = std::max(sum.farthest, moved[i].farthest);
-  }
-  std::vector<std::string> notes;
-  for (const auto& [key, sum] : sums) {
-    notes.push_back(key + ": " + counted(sum.count, "corner") + " moved by up to " +
-                    number_text(sum.farthest, 2) + " m onto lines that " +
-                    (sum.count == 1 ? "it" : "they") + " missed by no more than rounding, or snap");
-  }
-  return notes;
-}
-
 std::vector<NearMiss> near_misses(const LineWork& work, const std::vector<bool>& counted,
                                   double snap, double reach, bool framed,
                                   const std::function<bool(Vec2)>& in_rock) {
@@ -337,32 +306,6 @@ std::vector<NearMiss> near_misses(const LineWork& work, const std::vector<bool>&
     misses.push_back({p, gap, net.nodes[at(end.node)].source});
   }
   return misses;
-}
-
-std::vector<std::string> near_miss_warnings(const Model& model, const LineWork& work,
-                                            const std::vector<NearMiss>& misses, Vec2 origin) {
-  std::map<std::string, std::vector<NearMiss>> of_table;
-  for (const NearMiss& miss : misses) {
-    of_table[name_of(model, work.sources[at(miss.source)])].push_back(miss);
-  }
-  std::vector<std::string> warnings;
-  for (const auto& [key, found] : of_table) {
-    const auto nearer = [](const NearMiss& a, const NearMiss& b) { return a.gap < b.gap; };
-    const NearMiss nearest = *std::min_element(found.begin(), found.end(), nearer);
-    const double widest = std::max_element(found.begin(), found.end(), nearer)->gap;
-    const bool one = found.size() == 1;
-    const bool import = work.sources[at(nearest.source)].kind == LineKind::import;
-    const Vec2 p = nearest.at + origin;
-    warnings.push_back(
-        key + ": " + counted(found.size(), "end") + " of its lines " + (one ? "stops" : "stop") +
-        " in the rock less than " + number_text(round_up(widest), 3) +
-        " m short of another line, and what does not bound a block is trimmed; " +
-        (one ? "it" : "the nearest") + " misses by " + number_text(nearest.gap, 3) + " m at (" +
-        number_text(p.x) + ", " + number_text(p.y) + "): " + (import ? key : "domain") +
-        ".snap = " + number_text(round_up(widest), 3) + " joins " + (one ? "it" : "them") +
-        " if that is meant");
-  }
-  return warnings;
 }
 
 }  // namespace edda

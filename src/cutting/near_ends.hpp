@@ -3,7 +3,6 @@
 #pragma once
 
 #include <functional>
-#include <string>
 #include <vector>
 
 #include "cutting/line_work.hpp"
@@ -23,10 +22,6 @@ struct MovedCorners {
 /// what moved, per source. O(n log n).
 std::vector<MovedCorners> join_rounded_corners(LineWork& work, double snap, bool framed);
 
-/// A sentence per table of the model about corners that moved.
-std::vector<std::string> joined_notes(const Model& model, const LineWork& work,
-                                      const std::vector<MovedCorners>& moved);
-
 /// The free end of a trace or of an imported line, and what it misses.
 struct NearMiss {
   Vec2 at;           ///< m, local
@@ -39,10 +34,5 @@ struct NearMiss {
 std::vector<NearMiss> near_misses(const LineWork& work, const std::vector<bool>& counted,
                                   double snap, double reach, bool framed,
                                   const std::function<bool(Vec2)>& in_rock);
-
-/// A sentence per source about its near misses: how many, where the nearest is, and the snap that
-/// would join them.
-std::vector<std::string> near_miss_warnings(const Model& model, const LineWork& work,
-                                            const std::vector<NearMiss>& misses, Vec2 origin);
 
 }  // namespace edda

@@ -145,6 +145,7 @@ struct Accelerogram {
   std::vector<double> time;        ///< s, ascending
   std::vector<Vec2> acceleration;  ///< m/s2
   std::vector<Vec2> velocity;      ///< m/s
+  std::string read_as;             ///< what the file was taken for, with its unit; for reports
   bool unit_known = false;         ///< the file or the model states the unit of its accelerations
 };
 

@@ -188,6 +188,21 @@ TEST(RoundedLines, LinesAUnitApartStayApart) {
   EXPECT_EQ(cut.value().blocks.size(), 3U);
 }
 
+/// A circle whose pieces are shorter than a unit of the last digit keeps its corners.
+TEST(RoundedLines, SmallCurvesStay) {
+  Model model = model_of({{{0, 5.01}, {10, 5.01}}});
+  std::vector<Vec2> circle;
+  for (int i = 0; i < 48; ++i)
+    circle.push_back(Vec2{3, 3} + rotated({0.05, 0.0}, i * std::numbers::pi / 24.0));
+  circle.push_back(circle.front());
+  for (Vec2& p : circle) p = {std::round(p.x * 1e3) / 1e3, std::round(p.y * 1e3) / 1e3};
+  add_trace(model, circle);
+  const auto cut = build_polygons(model);
+  ASSERT_TRUE(cut.ok());
+  ASSERT_EQ(cut.value().blocks.size(), 3U);
+  EXPECT_NEAR(moments(cut.value().blocks[1].rings).area, std::numbers::pi * 0.05 * 0.05, 1e-4);
+}
+
 TEST(RoundedLines, EndsThatNearlyReachALineAreNamed) {
   const auto cut = build_polygons(model_of({{{0, 5.0001}, {10, 5.0001}},
                                             {{3.0, 5.0042}, {3.0, 10.0}},

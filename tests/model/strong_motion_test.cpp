@@ -224,6 +224,9 @@ TEST(Accelerogram, RecordsGoByTheirHeads) {
     return read_accelerogram(written(folder, name, text), how, "shaking.0.acceleration");
   };
   EXPECT_NEAR(read("a.asc", esm("cm/s^2")).value().acceleration[2].x, -0.5, 1e-12);
+  EXPECT_EQ(read("a.asc", esm("cm/s^2")).value().read_as, "ESM record in cm/s^2");
+  EXPECT_EQ(read("a.csv", "0,1\n1,2\n", {{1, 0}, 1, 0.01}).value().read_as,
+            "time and one component in cm/s2");
   EXPECT_NEAR(read("a.NS", k_net("4000 8000\n", "2.0")).value().acceleration[1].x, 0.02, 1e-12);
   const RecordReading third{{0.0, 1.0}, 3, {}};
   EXPECT_NEAR(read("a.V1A", geonet(true), third).value().acceleration[1].y, 3e-3, 1e-12);

@@ -158,9 +158,16 @@ bool has_peer_head(std::string_view text) {
   return false;
 }
 
+std::string unit_text(double unit) {
+  if (unit == standard_gravity) return "g";
+  return unit == 1.0 ? "m/s2" : unit == 0.01 ? "cm/s2" : fmt::format("{:g} m/s2", unit);
+}
+
 Accelerogram accelerogram_of(const StrongMotion& motion, const RecordReading& reading) {
   Accelerogram record;
   record.unit_known = true;
+  record.read_as = motion.read_as;
+  if (reading.unit) record.read_as += ", taken as " + unit_text(*reading.unit);
   const Vec2 along = reading.unit.value_or(motion.unit) * direction_of(reading.direction);
   for (const double a : motion.acceleration) {
     record.time.push_back(motion.step * static_cast<double>(record.time.size()));
@@ -216,6 +223,8 @@ Result<Accelerogram> parse_acceleration_rows(std::string_view text, const Record
   }
   Accelerogram record;
   record.unit_known = unit.has_value();
+  record.read_as =
+      std::string(one ? "time and one component" : "time, ax and ay") + " in " + unit_text(size);
   const double size = unit.value_or(1.0);
   const Vec2 along = direction_of(reading.direction);
   for (std::size_t k = 0; k < rows.value().size(); k += shape.columns) {
@@ -259,6 +268,7 @@ Result<Accelerogram> parse_at2(std::string_view text, const RecordReading& readi
   }
   Accelerogram record;
   record.unit_known = true;
+  record.read_as = "PEER record in " + unit_text(unit);
   const Vec2 along = unit * direction_of(reading.direction);
   while (!text.empty()) {
     std::string_view row = next_line(text);

@@ -99,6 +99,7 @@ class MotionReader {
     if (auto bad = values(i + 1, lines_.size(), 0, 0, record.acceleration)) return *bad;
     if (record.acceleration.empty()) return fault(0, "has no accelerations after its head");
     for (double& a : record.acceleration) a *= scale * gal;
+    record.read_as = "K-NET record in gal";
     if (!has_largest(record.acceleration, largest * gal)) take_off_mean(record.acceleration);
     return record;
   }
@@ -137,6 +138,7 @@ class MotionReader {
     if (auto bad = take_unit(unit, record.unit)) return *bad;
     if (auto bad = values(i, lines_.size(), 0, 0, record.acceleration)) return *bad;
     if (auto bad = wrong_count(record, points)) return *bad;
+    record.read_as = "ESM record in " + clean(unit);
     return record;
   }
 
@@ -158,6 +160,7 @@ class MotionReader {
       StrongMotion record;
       record.step = raw ? 1.0 / head[40] : head[65];
       record.unit = 1e-3;
+      record.read_as = fmt::format("GeoNet record in mm/s2, component {}", component_);
       const auto rows_of = [&](double n) {
         return static_cast<std::size_t>(std::ceil(std::clamp(n, 0.0, 1e8) / columns));
       };
@@ -207,6 +210,7 @@ class MotionReader {
     while (unit.ends_with('.') || unit.ends_with(' ')) unit.pop_back();
     if (auto bad = no_step(record.step)) return *bad;
     if (auto bad = take_unit(unit, record.unit)) return *bad;
+    record.read_as = fmt::format("COSMOS record in {}, component {}", clean(unit), component_);
     const double points = number_in(line).value_or(0.0);
     const std::size_t format = line.rfind('(');
     const std::string shape = format == std::string::npos ? std::string{} : line.substr(format);

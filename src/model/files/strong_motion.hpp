@@ -14,6 +14,7 @@ struct StrongMotion {
   double step = 0.0;                 ///< s
   std::vector<double> acceleration;  ///< in units of the file, or m/s2 where it has counts
   double unit = 1.0;                 ///< m/s2, of these
+  std::string read_as;               ///< "K-NET record in gal"
 };
 
 /// Reads the `component`-th component, from 1, of a record in the format of K-NET, COSMOS (V1, V2)
