@@ -199,10 +199,10 @@ class Joiner {
     return best;
   }
 
-  /// An end within the snap of its import: onto the nearest corner there is, else onto the line.
+  /// A free end within the snap of its import: onto the nearest corner there is, else onto the line.
   Vec2 snapped(int n) {
     const NetNode& node = net_.nodes[at(n)];
-    if (!node.end || node.snap == 0.0) return node.place;
+    if (!node.end || node.lines != 1 || node.snap == 0.0) return node.place;
     Vec2 best = node.place;
     double least = node.snap;
     bool corner = false;

@@ -109,10 +109,14 @@ class TraceTable {
 
   /// Null where the row is read.
   std::optional<Fault> take(std::string_view row, int line) {
+    if (!begun_ && row.starts_with("sep=") && row.size() == 5) {  // as spreadsheets write it
+      separator_ = row[4];
+      return std::nullopt;
+    }
     if (!separator_) separator_ = separator_of(row);
     const std::vector<std::string_view> fields = fields_of(row, *separator_);
-    const bool no_number = std::none_of(fields.begin(), fields.end(), [](std::string_view f) {
-      return place_number(unquoted(f)).has_value();
+    const bool no_number = std::none_of(fields.begin(), fields.end(), [&](std::string_view f) {
+      return number(unquoted(f)).has_value();
     });
     const bool first = !begun_;
     begun_ = true;
@@ -123,7 +127,7 @@ class TraceTable {
     std::array<double, 4> x{};
     for (std::size_t k = 0; k < x.size(); ++k) {
       const std::string_view field = unquoted(fields[*columns_[k]]);
-      const auto value = place_number(field);
+      const auto value = number(field);
       if (!value) return fault(line, '"' + for_message(field) + "\" is not a length");
       x[k] = *value;
       drawing_.digits.add(*value);
@@ -137,6 +141,14 @@ class TraceTable {
   Drawing finish() { return std::move(drawing_); }
 
  private:
+  /// Where semicolons separate the fields, numbers may have a decimal comma.
+  std::optional<double> number(std::string_view field) const {
+    if (separator_ != ';') return place_number(field);
+    std::string text(field);
+    std::replace(text.begin(), text.end(), ',', '.');
+    return place_number(text);
+  }
+
   std::optional<Fault> take_header(const std::vector<std::string_view>& fields, int line) {
     const TraceNames names(fields);
     if (!names.complete()) {

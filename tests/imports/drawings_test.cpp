@@ -277,7 +277,8 @@ TEST(Traces, ColumnsGoByTheirNames) {
         "\"x_start\"\t\"y_start\"\t\"x_end\"\t\"y_end\"\n1\t2\t3\t4\n",
         "name,x0,y0,x1,y1\n\"a, b\",1,2,3,4\n",
         "From X [m],From Y [m],To X [m],To Y [m],length\n1,2,3,4,2.8\n",
-        "xstart,xend,ystart,yend\n1,3,2,4\n", "set,X1,Y1,X2,Y2\nbed,1,2,3,4\n"}) {
+        "xstart,xend,ystart,yend\n1,3,2,4\n", "sep=;\nx1;y1;x2;y2\n1,0;2,0;3,0;4,0\n",
+        "set,X1,Y1,X2,Y2\nbed,1,2,3,4\n"}) {
     const Drawing d = read(parse_traces(text, "a.csv"));
     ASSERT_EQ(d.lines.size(), 1U) << text;
     EXPECT_EQ(d.lines[0].points, expected) << text;
