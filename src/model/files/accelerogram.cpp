@@ -223,8 +223,8 @@ Result<Accelerogram> parse_acceleration_rows(std::string_view text, const Record
   }
   Accelerogram record;
   record.unit_known = unit.has_value();
-  record.read_as =
-      std::string(one ? "time and one component" : "time, ax and ay") + " in " + unit_text(size);
+  record.read_as = std::string(one ? "time and one component" : "time, ax and ay") + " in " +
+                   unit_text(unit.value_or(1.0));
   const double size = unit.value_or(1.0);
   const Vec2 along = direction_of(reading.direction);
   for (std::size_t k = 0; k < rows.value().size(); k += shape.columns) {
