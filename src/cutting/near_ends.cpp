@@ -199,7 +199,8 @@ class Joiner {
     return best;
   }
 
-  /// A free end within the snap of its import: onto the nearest corner there is, else onto the line.
+  /// A free end within the snap of its import: onto the nearest corner there is, else onto the
+  /// line.
   Vec2 snapped(int n) {
     const NetNode& node = net_.nodes[at(n)];
     if (!node.end || node.lines != 1 || node.snap == 0.0) return node.place;

@@ -287,7 +287,6 @@ gap = 0.2
             ("squares.geo", SQUARES.replace("0.2 0.5 0.8 0.5", "9 9 9 9"), "meets no block"),
             ("d.dxf", DRAWING[:90], "d.dxf:"),
             ("d.dxf", "\x00\x01\x02", "not a group code"),
-            ("d.dxf", DRAWING.replace("5000\n", "x\n", 1), "d.dxf:12:1: "),
             ("d.dxf", "", "no section of entities"),
         ]:
             self.write(text, name)
@@ -299,6 +298,14 @@ gap = 0.2
             (self.dir / name).unlink()
             self.assertIn("no such file", self.edda("check", "m.toml", code=2).stderr)
         self.assertFalse((self.dir / "m").exists())
+
+    def test_bad_entities(self):
+        self.write(DRAWING.replace("5000\n", "x\n", 1), "d.dxf")
+        self.write(DXF)
+        for command in (("check", "m.toml"), ("run", "m.toml", "-o", "out")):
+            done = self.edda(*command)
+            self.assertIn('1 part of the drawing has a fault and is left out; d.dxf, line 12: "x" is not a length',
+                          done.stdout + done.stderr)
 
 
 if __name__ == "__main__":
