@@ -53,11 +53,7 @@ inline std::optional<Vec2> text_of(const std::string& svg, const std::string& te
 /// A property of a path such as "fill" or "stroke-width": cairo 1.16 writes them in one attribute
 /// style, 1.18 as attributes of their own. Empty where it has none.
 inline std::string property(const std::string& path, const std::string& what) {
-  const std::string own = " " + what + "=\"";
-  if (const std::size_t at = path.find(own); at != std::string::npos) {
-    const std::size_t begin = at + own.size();
-    return path.substr(begin, path.find('"', begin) - begin);
-  }
+  if (const std::string own = attribute(path, what); !own.empty()) return own;
   const std::string style = ";" + attribute(path, "style") + ";", key = ";" + what + ":";
   const std::size_t at = style.find(key);
   if (at == std::string::npos) return {};
