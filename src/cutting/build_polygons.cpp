@@ -10,6 +10,7 @@
 
 #include "base/place.hpp"
 #include "base/text.hpp"
+#include "cutting/close_gaps.hpp"
 #include "cutting/cut_domain.hpp"
 #include "cutting/fixed.hpp"
 #include "cutting/given_blocks.hpp"
@@ -141,6 +142,7 @@ Result<PolygonSet> all_blocks(const Model& model, const Imports& imports, bool f
   const std::size_t first_imported = set.blocks.size();
   append(set.blocks, imported_blocks(model, imports, set.origin));
   const std::size_t first_cut = set.blocks.size();
+  const std::string closed = close_gaps(set.blocks, model.contact.close_gaps);
   if (model.domain) {
     Result<PolygonSet> cut = add_cut_blocks(model, imports, framed, std::move(set));
     if (!cut.ok()) return cut.faults();
@@ -150,6 +152,7 @@ Result<PolygonSet> all_blocks(const Model& model, const Imports& imports, bool f
     faults = fix_blocks(model, 0.0, first_imported, set);
     if (!faults.empty()) return faults;
   }
+  if (!closed.empty()) set.report.notes.push_back(closed);
   faults = find_overlaps(set.blocks, first_cut);
   if (!faults.empty()) return faults;
   measure_quality(set.blocks, set.origin, set.report);

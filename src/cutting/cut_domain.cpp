@@ -15,6 +15,7 @@
 #include "cutting/crossings.hpp"
 #include "cutting/face_polygons.hpp"
 #include "cutting/idle_lines.hpp"
+#include "cutting/joined_ends.hpp"
 #include "cutting/line_work.hpp"
 #include "cutting/noding.hpp"
 #include "cutting/partition.hpp"
@@ -248,9 +249,11 @@ std::vector<Vec2> fixed_points(const Model& model, const Imports& imports, Vec2 
 /// it may be the cause.
 std::vector<std::string> cut_warnings(const Model& model, const Imports& imports,
                                       const Arrangement& a, const LineWork& work, bool framed,
-                                      double snap) {
-  std::vector<std::string> warnings = idle_lines(model, work, a.graph, a.parts, framed,
-                                                 [&](Vec2 p) { return in_rock(work, p, snap); });
+                                      const std::function<bool(Vec2)>& inside) {
+  std::vector<std::string> warnings = idle_lines(model, work, a.graph, a.parts, framed, inside);
+  for (std::string& shortened : shortened_sets(model, work, a.graph, a.parts, inside)) {
+    warnings.push_back(std::move(shortened));
+  }
   for (std::size_t i = 0; i < model.imports.size(); ++i) {
     const auto doubt = unit_doubt(model, imports, i);
     if (!doubt) continue;
@@ -259,6 +262,51 @@ std::vector<std::string> cut_warnings(const Model& model, const Imports& imports
     warnings.push_back(*doubt);
   }
   return warnings;
+}
+
+/// Merges faces that are none, and slivers by [quality].
+std::optional<Faults> merge_faces(const Model& model, const Imports& imports, Arrangement& a,
+                                  const LineWork& work, bool framed, double snap, Vec2 origin,
+                                  CutReport& report) {
+  const std::vector<double> thin = widths_of_rounding(work);
+  const auto merge_thin = [&] {
+    return merge_slivers(a.graph, a.parts.faces, a.parts.rock, snap, thin);
+  };
+  if (auto faults = merge_all(model, a, work, framed, report.merged, merge_thin)) {
+    return faults;
+  }
+  const Quality& q = model.quality;
+  const bool asks = q.min_area > 0.0 || q.min_edge > 0.0 || q.min_angle > 0.0;
+  if (asks && q.action == QualityAction::merge) {
+    const std::vector<Vec2> fixed = fixed_points(model, imports, origin);
+    std::vector<FaceMerge> merges;
+    const auto merge_poor = [&] {
+      return merge_poor_faces(a.graph, a.parts, q,
+                              {a.region_of_half_edge, fixed, work.sources, snap}, merges);
+    };
+    if (auto faults = merge_all(model, a, work, framed, report.quality_merged, merge_poor)) {
+      return faults;
+    }
+    for (const FaceMerge& m : merges) {
+      const LineSource& source = work.sources[static_cast<std::size_t>(m.source)];
+      report.quality_area += m.area;
+      report.merges.push_back({m.at + origin, m.area, table_of(model, source), m.lost});
+    }
+  }
+  return std::nullopt;
+}
+
+/// Notes of what was read, drawn and joined, and warnings of lines that cut nothing or too little.
+void report_lines(const Model& model, const Imports& imports, const Arrangement& a,
+                  const LineWork& work, bool framed, const JoinedEnds& joined,
+                  const std::function<bool(Vec2)>& in_rock, CutReport& report) {
+  for (const auto* notes : {&imports.notes, &work.notes, &joined.notes}) {
+    report.notes.insert(report.notes.end(), notes->begin(), notes->end());
+  }
+  report.warnings = cut_warnings(model, imports, a, work, framed, in_rock);
+  for (const auto* warnings : {&joined.warnings, &imports.warnings}) {
+    report.warnings.insert(report.warnings.end(), warnings->begin(), warnings->end());
+  }
 }
 
 }  // namespace
@@ -286,6 +334,8 @@ Result<DomainCut> cut_domain(const Model& model, Vec2 origin, const Imports& imp
                  "the area of the outline without its openings cannot be measured",
                  "simplify the outline or the openings where they nearly touch"};
   }
+  const auto inside = [&](Vec2 p) { return in_rock(work, p, snap); };
+  const JoinedEnds joined = join_ends(model, work, snap, framed, origin, inside);
   Result<Arrangement> arranged = arrange(model, work, snap, framed);
   if (!arranged.ok()) return arranged.faults();
   Arrangement& a = arranged.value();
@@ -293,31 +343,10 @@ Result<DomainCut> cut_domain(const Model& model, Vec2 origin, const Imports& imp
 
   DomainCut cut;
   cut.report = a.report;
-  cut.report.notes = imports.notes;
-  cut.report.notes.insert(cut.report.notes.end(), work.notes.begin(), work.notes.end());
   cut.report.area_in = *area_in;
-  cut.report.warnings = cut_warnings(model, imports, a, work, framed, snap);
-  const auto merge_thin = [&] { return merge_slivers(a.graph, a.parts.faces, a.parts.rock, snap); };
-  if (auto faults = merge_all(model, a, work, framed, cut.report.merged, merge_thin)) {
+  report_lines(model, imports, a, work, framed, joined, inside, cut.report);
+  if (auto faults = merge_faces(model, imports, a, work, framed, snap, origin, cut.report)) {
     return *faults;
-  }
-  const Quality& q = model.quality;
-  const bool asks = q.min_area > 0.0 || q.min_edge > 0.0 || q.min_angle > 0.0;
-  if (asks && q.action == QualityAction::merge) {
-    const std::vector<Vec2> fixed = fixed_points(model, imports, origin);
-    std::vector<FaceMerge> merges;
-    const auto merge_poor = [&] {
-      return merge_poor_faces(a.graph, a.parts, q,
-                              {a.region_of_half_edge, fixed, work.sources, snap}, merges);
-    };
-    if (auto faults = merge_all(model, a, work, framed, cut.report.quality_merged, merge_poor)) {
-      return *faults;
-    }
-    for (const FaceMerge& m : merges) {
-      const LineSource& source = work.sources[static_cast<std::size_t>(m.source)];
-      cut.report.quality_area += m.area;
-      cut.report.merges.push_back({m.at + origin, m.area, table_of(model, source), m.lost});
-    }
   }
   if (auto fault = wrong_count(model, a.parts, framed)) return *fault;
   if (auto fault = lost_area(model, a, work, snap, *area_in)) return *fault;

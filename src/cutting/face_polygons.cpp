@@ -122,6 +122,20 @@ void pass_on_source(PlanarGraph& g, const Faces& faces, int sliver, int into, do
   }
 }
 
+/// The larger `width` of the sources of a face with two edges or more of sources that have one;
+/// fewer are no lines that met before they were rounded.
+double width_between_rounded(const PlanarGraph& graph, const Faces& faces, int face,
+                             const std::vector<double>& width) {
+  int edges = 0;
+  double largest = 0.0;
+  for_each_half_edge(faces, face, [&](int h) {
+    const double w = width[at(graph.edge[at(h / 2)].source)];
+    edges += w > 0.0;
+    largest = std::max(largest, w);
+  });
+  return edges >= 2 ? largest : 0.0;
+}
+
 }  // namespace
 
 double face_area(const PlanarGraph& graph, const Faces& faces, int face) {
@@ -142,8 +156,8 @@ bool has_thin_face(const PlanarGraph& graph, const Faces& faces, double width) {
   return false;
 }
 
-int merge_slivers(PlanarGraph& graph, const Faces& faces, const std::vector<int>& rock,
-                  double snap) {
+int merge_slivers(PlanarGraph& graph, const Faces& faces, const std::vector<int>& rock, double snap,
+                  const std::vector<double>& width) {
   std::vector<int> parent(rock.size());
   std::iota(parent.begin(), parent.end(), 0);
   const auto root = [&](int i) {
@@ -153,11 +167,13 @@ int merge_slivers(PlanarGraph& graph, const Faces& faces, const std::vector<int>
   int merged = 0;
   for (std::size_t f = 1; f < rock.size(); ++f) {
     const int face = static_cast<int>(f);
-    if (rock[f] < 0 || width_of(graph, faces, face) >= 2.0 * snap) continue;
+    if (rock[f] < 0) continue;
+    const double least = std::max(2.0 * snap, width_between_rounded(graph, faces, face, width));
+    if (width_of(graph, faces, face) >= least) continue;
     const int into = longest_neighbour(graph, faces, rock, face);
     if (into < 0 || root(into) == root(face)) continue;
     parent[at(root(face))] = root(into);
-    pass_on_source(graph, faces, face, into, snap);
+    pass_on_source(graph, faces, face, into, std::max(snap, 0.5 * least));
     ++merged;
   }
   if (merged == 0) return 0;

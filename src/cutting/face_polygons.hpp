@@ -23,12 +23,13 @@ double face_area(const PlanarGraph& graph, const Faces& faces, int face);
 /// Whether a bounded face is thinner than `width` (2 area / perimeter), m.
 bool has_thin_face(const PlanarGraph& graph, const Faces& faces, double width);
 
-/// Removes the edges between a rock face thinner than 2 `snap` (2 area / perimeter) and the rock
-/// face with which it shares the longest boundary; of the sources on its two sides the first in
-/// precedence remains. `rock`: as in Partition. Returns how many faces were merged; if any, the
+/// Removes the edges between a rock face that is thinner (2 area / perimeter) than 2 `snap`, or
+/// than `width` between sources that have one, and the rock face with which it shares the longest
+/// boundary; of the sources on its two sides the first in precedence remains. `rock`: as in
+/// Partition. `width`: per source, m, 0 for most. Returns how many faces were merged; if any, the
 /// faces must be found again.
-int merge_slivers(PlanarGraph& graph, const Faces& faces, const std::vector<int>& rock,
-                  double snap);
+int merge_slivers(PlanarGraph& graph, const Faces& faces, const std::vector<int>& rock, double snap,
+                  const std::vector<double>& width);
 
 /// Sorts by centroid: y, then x; heights closer than `tolerance` to the next count as equal, so
 /// that rounding does not change the order within a row.

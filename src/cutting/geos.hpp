@@ -1,5 +1,10 @@
-// The parts of GEOS used here; its headers do not compile without warnings under our flags.
+// The parts of GEOS used here; its headers do not compile without warnings under our flags. GEOS
+// promises its C interface alone, which has no noding with sources. What differs between the
+// versions of Debian 12 (3.11), Ubuntu 24.04 (3.12) and Debian 13 (3.13) is settled at the end.
 #pragma once
+
+#include <memory>
+#include <utility>
 
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wconversion"
@@ -15,7 +20,12 @@
 #include <geos/algorithm/LineIntersector.h>
 #include <geos/algorithm/Orientation.h>
 #include <geos/geom/Coordinate.h>
+#include <geos/version.h>
+#if GEOS_VERSION_MAJOR > 3 || GEOS_VERSION_MINOR >= 12
+#include <geos/geom/CoordinateSequence.h>
+#else
 #include <geos/geom/CoordinateArraySequence.h>
+#endif
 #include <geos/geom/Envelope.h>
 #include <geos/geom/Geometry.h>
 #include <geos/geom/GeometryFactory.h>
@@ -31,3 +41,24 @@
 #include <geos/triangulate/VoronoiDiagramBuilder.h>
 #include <geos/triangulate/polygon/ConstrainedDelaunayTriangulator.h>
 #pragma GCC diagnostic pop
+
+namespace edda {
+
+#if GEOS_VERSION_MAJOR > 3 || GEOS_VERSION_MINOR >= 12
+using GeosPoints = geos::geom::CoordinateSequence;
+
+inline geos::noding::NodedSegmentString* noded_string(std::unique_ptr<GeosPoints> points,
+                                                      const void* data) {
+  return new geos::noding::NodedSegmentString(points.release(), false, false, data);
+}
+#else
+using GeosPoints = geos::geom::CoordinateArraySequence;
+
+/// A string to be noded; the caller owns it.
+inline geos::noding::NodedSegmentString* noded_string(std::unique_ptr<GeosPoints> points,
+                                                      const void* data) {
+  return new geos::noding::NodedSegmentString(points.release(), data);
+}
+#endif
+
+}  // namespace edda

@@ -1,5 +1,7 @@
 #include "cutting/idle_lines.hpp"
 
+#include "base/text.hpp"
+
 #include <algorithm>
 #include <map>
 #include <tuple>
@@ -91,6 +93,36 @@ std::string warning_of(const Model& model, LineKind kind, std::size_t i, Fate fa
 
 std::string table_of(const Model& model, const LineSource& source) {
   return where_of(model, source.kind, static_cast<std::size_t>(source.index)).key;
+}
+
+std::vector<std::string> shortened_sets(const Model& model, const LineWork& work,
+                                        const PlanarGraph& graph, const Partition& parts,
+                                        const std::function<bool(Vec2)>& in_rock) {
+  const std::vector<std::uint8_t> cuts = edges_that_cut(graph, parts, false);
+  std::vector<double> lost(work.sources.size(), 0.0), left(work.sources.size(), 0.0);
+  for (std::size_t e = 0; e < graph.edge.size(); ++e) {
+    const GraphEdge& edge = graph.edge[e];
+    const auto s = static_cast<std::size_t>(edge.source);
+    if (work.sources[s].kind != LineKind::joint_set) continue;
+    const Vec2 a = graph.node[static_cast<std::size_t>(edge.from)];
+    const Vec2 b = graph.node[static_cast<std::size_t>(edge.to)];
+    if (cuts[e]) {
+      left[s] += norm(b - a);
+    } else if (!graph.alive[e] && in_rock(0.5 * (a + b))) {
+      lost[s] += norm(b - a);
+    }
+  }
+  std::vector<std::string> warnings;
+  for (std::size_t s = 0; s < lost.size(); ++s) {
+    constexpr double noticed = 1.0 / 3.0;
+    const double whole = lost[s] + left[s];
+    if (left[s] == 0.0 || lost[s] <= noticed * whole) continue;
+    warnings.push_back(table_of(model, work.sources[s]) + ": " + number_text(lost[s], 3) +
+                       " m of its " + number_text(whole, 3) +
+                       " m end inside blocks and are trimmed away: lengthen its traces to other "
+                       "joints, or let them run from one bed to the next (bounded_by)");
+  }
+  return warnings;
 }
 
 std::vector<std::string> idle_lines(const Model& model, const LineWork& work,

@@ -1,4 +1,5 @@
-// Joints that cut nothing: drawn beside the rock, or trimmed away.
+// Joints that cut nothing, or less than they were given for: drawn beside the rock, or trimmed
+// away.
 #pragma once
 
 #include <functional>
@@ -20,5 +21,11 @@ std::string table_of(const Model& model, const LineSource& source);
 std::vector<std::string> idle_lines(const Model& model, const LineWork& work,
                                     const PlanarGraph& graph, const Partition& parts, bool framed,
                                     const std::function<bool(Vec2)>& in_rock);
+
+/// A warning per joint set that loses more than a third of its length in rock, since its joints end
+/// inside blocks, with the lengths; none for those that lose all (idle_lines()).
+std::vector<std::string> shortened_sets(const Model& model, const LineWork& work,
+                                        const PlanarGraph& graph, const Partition& parts,
+                                        const std::function<bool(Vec2)>& in_rock);
 
 }  // namespace edda

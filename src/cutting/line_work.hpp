@@ -2,6 +2,7 @@
 // source.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,8 @@ struct LineSource {
   LineKind kind = LineKind::outline;
   Index index = 0;     ///< in the model's list of that kind
   Index joint = none;  ///< law of its edges: domain.joint where a trace or set names none
+  double unit = 0.0;  ///< m, of the last digit to which its coordinates are rounded; 0: not rounded
+  std::optional<double> snap = {};  ///< m, import.snap where it is given
 };
 
 /// A polyline; rings (outline, openings) repeat their first point and run counter-clockwise.

@@ -44,10 +44,10 @@ Strings strings_of(const LineWork& work, Place place) {
   Strings strings;
   strings.items().reserve(work.lines.size());
   for (const LineString& line : work.lines) {
-    auto points = std::make_unique<geos::geom::CoordinateArraySequence>();
+    auto points = std::make_unique<GeosPoints>();
     for (Vec2 p : line.points) points->add(place(geos::geom::Coordinate(p.x, p.y)), false);
     const LineSource* source = &work.sources[static_cast<std::size_t>(line.source)];
-    strings.items().push_back(new geos::noding::NodedSegmentString(points.release(), source));
+    strings.items().push_back(noded_string(std::move(points), source));
   }
   return strings;
 }

@@ -13,7 +13,6 @@ namespace edda {
 namespace {
 
 using geos::geom::Coordinate;
-using geos::geom::CoordinateArraySequence;
 
 /// The box of the random points, a little larger than the area to be covered.
 geos::geom::Envelope box_round(const Ring& ring, double margin) {
@@ -34,7 +33,7 @@ std::vector<Vec2> random_points(const geos::geom::Envelope& box, double size, Ra
 
 void set_up(geos::triangulate::VoronoiDiagramBuilder& builder, const std::vector<Vec2>& points,
             const geos::geom::Envelope& box) {
-  CoordinateArraySequence sites;
+  GeosPoints sites;
   for (const Vec2 p : points) sites.add(Coordinate(p.x, p.y));
   builder.setSites(sites);
   builder.setClipEnvelope(&box);

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/digits.hpp"
 #include "base/fault.hpp"
 #include "base/vec2.hpp"
 #include "model/geometry_inputs.hpp"
@@ -25,15 +26,22 @@ struct Drawing {
   std::vector<std::pair<Vec2, Vec2>> fixed;  ///< fixed lines and points
   std::optional<LengthUnit> units;           ///< as given in the file
   std::map<std::string, int> skipped;        ///< what was left out: how many of each kind
+  int faulty = 0;                            ///< entities left out for a fault in them
+  std::optional<Fault> fault;                ///< the first of these faults
+  Digits digits;                             ///< of its coordinates, in the file's unit
 };
 
 /// Two-dimensional lines of a DXF drawing: LINE, LWPOLYLINE, POLYLINE, ARC, CIRCLE, ELLIPSE and
 /// SPLINE, also those of the blocks that it inserts, with curves as straight pieces. All other
-/// entities are counted in `skipped`, and so are those outside the plane of the drawing.
-Result<Drawing> parse_dxf(std::string_view text, const std::string& path);
+/// entities are counted in `skipped`, and so are those outside the plane of the drawing, with a
+/// fault, or on a layer that is off or frozen and not in `shown`.
+Result<Drawing> parse_dxf(std::string_view text, const std::string& path,
+                          const std::vector<std::string>& shown = {});
 
-/// Rows x1,y1,x2,y2 with, as an optional fifth field, the name of a joint. A first row of names,
-/// empty lines and lines that begin with # are skipped.
+/// Rows x1,y1,x2,y2 with, as an optional fifth field, the name of a joint, separated by commas,
+/// semicolons or tabs. A first row of names says which column is which, and the others are left out
+/// and counted; a fault where it does not name both ends. Empty lines and lines that begin with #
+/// are skipped.
 Result<Drawing> parse_traces(std::string_view text, const std::string& path);
 
 /// Lines of a geometry file of DDA, as numbers or as tags; docs/geometry.md describes both.

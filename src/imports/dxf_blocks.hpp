@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "imports/dxf_entities.hpp"
+#include "imports/dxf_tables.hpp"
 
 namespace edda {
 
@@ -15,19 +16,19 @@ struct DxfBlock {
   bool elsewhere = false;  ///< an external reference: another drawing
   DxfContent content;
   std::size_t parts = 0;       ///< points of its lines and entities left out
-  std::optional<Fault> fault;  ///< fault within it; reported where it is inserted
+  std::optional<Fault> fault;  ///< fault in its head; reported where it is inserted
 };
 
 /// By name, in capitals, since names of blocks are case-insensitive.
 using DxfBlocks = std::map<std::string, DxfBlock>;
 
-/// Reads a section of blocks.
-void read_blocks(DxfSection& section, DxfBlocks& blocks);
+/// Reads a section of blocks. `digits`: counts those of their coordinates.
+void read_blocks(DxfSection& section, Digits& digits, DxfBlocks& blocks);
 
-/// Adds the lines of inserted blocks, and counts what is left out of them. Faults: a block that
-/// contains itself, blocks nested too deeply, or so many insertions that a small file would fill
-/// the memory.
-void place_blocks(const DxfBlocks& blocks, const std::vector<DxfInsert>& inserts, Drawing& drawing,
-                  DxfFault& fault);
+/// Fills the drawing with the lines of `content` and of the blocks that it inserts, and counts what
+/// is left out: hidden layers, clipped blocks, blocks that contain themselves or are nested too
+/// deeply. Fault: so many insertions that a small file would fill the memory.
+void place_content(DxfContent content, const DxfBlocks& blocks, const DxfTables& tables,
+                   Drawing& drawing, DxfFault& fault);
 
 }  // namespace edda

@@ -28,34 +28,50 @@ struct DxfCollector::Kind {
   bool plane = true;  ///< it lies in the plane of the drawing, according to its extrusion
 };
 
-bool DxfCollector::add(const DxfEntity& entity) {
+void DxfCollector::add(const DxfEntity& entity) {
   static constexpr std::array kinds{
       Kind{"LINE", &DxfCollector::line, false},  Kind{"LWPOLYLINE", &DxfCollector::light_polyline},
       Kind{"POLYLINE", &DxfCollector::polyline}, Kind{"CIRCLE", &DxfCollector::circle},
       Kind{"ARC", &DxfCollector::arc},           Kind{"ELLIPSE", &DxfCollector::ellipse},
       Kind{"SPLINE", &DxfCollector::spline},     Kind{"INSERT", &DxfCollector::insert}};
-  if (fault_.found()) return false;
   if (entity.name == "VERTEX") return vertex(entity);
   if (entity.name == "SEQEND") return end_polyline();
-  if (open_) return fault_.add(entity.line, "a POLYLINE is not ended by SEQEND");
+  leave_open();
   const auto* const kind = std::find_if(kinds.begin(), kinds.end(),
                                         [&](const Kind& k) { return k.name == entity.name; });
   skipping_ = entity.name == "POLYLINE";
-  if (kind == kinds.end()) return count(for_message(entity.name));
-  DxfValues v(entity, fault_);
+  if (kind == kinds.end()) return void(count(for_message(entity.name)));
+  if (entity.fault) return leave_out(std::string(entity.name), *entity.fault);
+  DxfFault fault(path_);
+  DxfValues v(entity, fault, &digits_);
   const bool on_paper = v.whole(67, 0) == 1, hidden = v.whole(60, 0) == 1;
   const bool in_space = skipping_ && (v.whole(70, 0) & drawn_in_space) != 0;
   const int side = kind->plane && !in_space ? v.side() : 1;
-  if (!v.sound()) return false;
-  if (on_paper) return count(v.name() + " on paper");
-  if (hidden) return count("hidden " + v.name());
-  if (side == 0) return count(v.name() + " across the plane");
-  return (this->*kind->read)(v, side);
+  if (v.sound() && on_paper) return void(count(v.name() + " on paper"));
+  if (v.sound() && hidden) return void(count("hidden " + v.name()));
+  if (v.sound() && side == 0) return void(count(v.name() + " across the plane"));
+  if (v.sound()) (this->*kind->read)(v, side);
+  if (fault.found()) leave_out(v.name(), *fault.found());
 }
 
-DxfContent DxfCollector::finish(int line) {
-  if (open_) fault_.add(line, "a POLYLINE is not ended by SEQEND");
+DxfContent DxfCollector::finish() {
+  leave_open();
   return std::move(content_);
+}
+
+void DxfCollector::leave_out(const std::string& name, const Fault& fault) {
+  count(name + " with a fault");
+  ++content_.faulty;
+  if (!content_.fault) content_.fault = fault;
+}
+
+/// A POLYLINE after which another entity follows without SEQEND.
+void DxfCollector::leave_open() {
+  if (!open_) return;
+  DxfFault fault(path_);
+  fault.add(open_->line, "a POLYLINE is not ended by SEQEND");
+  open_->fault = fault.found();
+  end_polyline();
 }
 
 bool DxfCollector::count(const std::string& kind) {
@@ -87,25 +103,31 @@ bool DxfCollector::polyline(DxfValues& v, int side) {
   constexpr int mesh = 16 | 64;
   if ((flags & mesh) != 0) return count("POLYLINE as a mesh");
   skipping_ = false;
-  open_ = Open{v.layer(), v.line(), side, (flags & 1) != 0, {}};
+  open_ = Open{v.layer(), v.line(), side, (flags & 1) != 0, {}, {}};
   return true;
 }
 
-bool DxfCollector::vertex(const DxfEntity& entity) {
-  if (skipping_) return true;
-  if (!open_) return count("VERTEX");
-  DxfValues v(entity, fault_);
+void DxfCollector::vertex(const DxfEntity& entity) {
+  if (skipping_) return;
+  if (!open_) return void(count("VERTEX"));
+  DxfFault fault(path_);
+  DxfValues v(entity, fault, &digits_);
   constexpr int frame_of_spline = 16;
-  if ((v.whole(70, 0) & frame_of_spline) != 0) return true;
+  if ((v.whole(70, 0) & frame_of_spline) != 0) return;
   const Vec2 point = v.point(10);
   const double bulge = v.number(42, 0.0);
   open_->corners.push_back({seen(open_->side, point), open_->side * bulge});
-  return v.sound();
+  if (!open_->fault) open_->fault = entity.fault ? entity.fault : fault.found();
 }
 
-bool DxfCollector::end_polyline() {
+void DxfCollector::end_polyline() {
   skipping_ = false;
-  if (!open_) return true;
+  if (!open_) return;
+  if (open_->fault) {
+    leave_out("POLYLINE", *open_->fault);
+    open_.reset();
+    return;
+  }
   std::vector<Vec2> points = bulged_points(open_->corners, open_->closed);
   if (points.size() < 2) {
     count("POLYLINE of one point");
@@ -113,7 +135,6 @@ bool DxfCollector::end_polyline() {
     content_.lines.push_back({std::move(points), std::move(open_->layer), open_->line});
   }
   open_.reset();
-  return true;
 }
 
 bool DxfCollector::circle(DxfValues& v, int side) {
@@ -166,6 +187,7 @@ bool DxfCollector::insert(DxfValues& v, int side) {
   insert.block = v.text(2);
   insert.layer = v.layer();
   insert.line = v.line();
+  insert.dictionary = v.dictionary();
   insert.map = {seen(side, at), seen(side, scale.x * x), seen(side, scale.y * y)};
   insert.column_step = seen(side, apart.x * x);
   insert.row_step = seen(side, apart.y * y);

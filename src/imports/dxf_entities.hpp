@@ -18,24 +18,27 @@ struct DxfInsert {
   PlaneMap map;  ///< of the first one, before the shift of the block's base point to its origin
   int columns = 1, rows = 1;
   Vec2 column_step, row_step;
-  int line = 0;  ///< of the file
+  int line = 0;            ///< of the file
+  std::string dictionary;  ///< handle of the dictionary of what else belongs to it
 };
 
 struct DxfContent {
   std::vector<DrawnLine> lines;  ///< in the block's own coordinates
   std::vector<DxfInsert> inserts;
   std::map<std::string, int> skipped;  ///< what was left out: how many of each kind
+  int faulty = 0;                      ///< entities left out for a fault in them
+  std::optional<Fault> fault;          ///< the first of these faults
 };
 
-/// Reads entities one at a time and keeps the lines that they draw.
+/// Reads entities one at a time and keeps the lines that they draw. One with a fault is left out
+/// and counted.
 class DxfCollector {
  public:
-  explicit DxfCollector(DxfFault& fault) : fault_(fault) {}
+  /// `digits`: counts those of the coordinates.
+  DxfCollector(std::string path, Digits& digits) : path_(std::move(path)), digits_(digits) {}
 
-  /// Returns false where a fault has been found, now or before.
-  bool add(const DxfEntity& entity);
-  /// `line`: where the entities end.
-  DxfContent finish(int line);
+  void add(const DxfEntity& entity);
+  DxfContent finish();
 
  private:
   struct Kind;
@@ -45,13 +48,15 @@ class DxfCollector {
     int line = 0, side = 1;
     bool closed = false;
     std::vector<BulgedCorner> corners;
+    std::optional<Fault> fault = {};
   };
 
   bool line(DxfValues& v, int side);
   bool light_polyline(DxfValues& v, int side);
   bool polyline(DxfValues& v, int side);
-  bool vertex(const DxfEntity& entity);
-  bool end_polyline();
+  void vertex(const DxfEntity& entity);
+  void end_polyline();
+  void leave_open();
   bool circle(DxfValues& v, int side);
   bool arc(DxfValues& v, int side);
   bool ellipse(DxfValues& v, int side);
@@ -60,8 +65,10 @@ class DxfCollector {
 
   bool take(DxfValues& v, std::vector<Vec2> points);
   bool count(const std::string& kind);
+  void leave_out(const std::string& name, const Fault& fault);
 
-  DxfFault& fault_;
+  std::string path_;
+  Digits& digits_;
   DxfContent content_;
   std::optional<Open> open_;
   bool skipping_ = false;  ///< within a POLYLINE that is left out

@@ -10,8 +10,7 @@ namespace {
 
 constexpr int highest_degree = 11;
 
-/// Why knots and weights define no curve; empty where they do. Within the curve a knot may be
-/// repeated as often as the degree; once more would interrupt the curve.
+/// Why knots and weights define no curve; empty where they do.
 std::string fault_of(const SplineCurve& curve, std::size_t weights) {
   const auto degree = static_cast<std::size_t>(curve.degree);
   const std::size_t points = curve.points.size(), knots = points + degree + 1;
@@ -27,11 +26,6 @@ std::string fault_of(const SplineCurve& curve, std::size_t weights) {
   if (!std::is_sorted(u.begin(), u.end())) return "the knots of SPLINE decrease";
   const double first = u[degree], last = u[points];
   if (!(first < last)) return "the knots of SPLINE are all one";
-  for (std::size_t i = degree + 1; i < points; ++i) {
-    if (u[i] == u[i - degree] && first < u[i] && u[i] < last) {
-      return "a knot of SPLINE is repeated more often than its degree";
-    }
-  }
   return {};
 }
 
@@ -76,6 +70,7 @@ DxfSpline read_spline(DxfValues& values) {
   }
   if (!take_weights(curve, std::move(weights))) return {{}, "SPLINE of weights not above 0"};
   DxfSpline spline{spline_points(curve), {}};
+  if (spline.points.empty()) return {{}, "SPLINE that is interrupted"};
   if (!close(spline.points, curve.size()) && closed) {
     return {{}, "SPLINE said to be closed that is open"};
   }

@@ -47,6 +47,13 @@ int DxfValues::whole(int code, std::optional<int> otherwise) {
   return value.value_or(0);
 }
 
+Vec2 DxfValues::point(int code) {
+  const Vec2 p{length(code), length(code + 10)};
+  count_digits(p.x);
+  count_digits(p.y);
+  return p;
+}
+
 std::string DxfValues::text(int code) {
   const DxfGroup* group = entity_.find(code);
   if (group == nullptr || group->value.empty()) {
@@ -71,6 +78,7 @@ std::vector<BulgedCorner> DxfValues::corners(std::optional<int> bulge_code) {
     const bool is_bulge = group.code == bulge_code;
     if (group.code != 10 && group.code != 20 && !is_bulge) continue;
     const double read = value(group, is_bulge ? a_number : a_length);
+    if (!is_bulge) count_digits(read);
     if (group.code == 10) {
       if (!has_y) break;
       corners.push_back({{read, 0.0}, 0.0});
@@ -91,9 +99,19 @@ std::vector<BulgedCorner> DxfValues::corners(std::optional<int> bulge_code) {
 
 int DxfValues::side() {
   const double x = number(210, 0.0), y = number(220, 0.0), z = number(230, 1.0);
+  if (x == 0.0 && y == 0.0 && z == 0.0) return 1;
   constexpr double aslant = 1e-6;
   if (std::abs(x) > aslant || std::abs(y) > aslant || z == 0.0) return 0;
   return z > 0.0 ? 1 : -1;
+}
+
+std::string DxfValues::dictionary() const {
+  bool within = false;
+  for (const DxfGroup& group : entity_.groups) {
+    if (group.code == 102) within = group.value == "{ACAD_XDICTIONARY";
+    if (within && group.code == 360) return dxf_handle(group.value);
+  }
+  return {};
 }
 
 std::string DxfValues::layer() const {

@@ -9,6 +9,7 @@
 #include <variant>
 
 #include "base/place.hpp"
+#include "base/text.hpp"
 #include "imports/drawing.hpp"
 #include "imports/import_units.hpp"
 #include "model/files/file_text.hpp"
@@ -32,7 +33,11 @@ Result<Drawing> read_drawing(const Import& import) {
   const std::string ending = ending_of(import.file);
   if (ending == ".csv") return parse_traces(content, import.file);
   if (ending == ".geo") return parse_geo(content, import.file);
-  return parse_dxf(content, import.file);
+  // Whoever names a layer wants it, also where it is hidden.
+  std::vector<std::string> shown = import.fixed;
+  for (const auto& [name, joint] : import.layers) shown.push_back(name);
+  for (const auto& [name, material] : import.materials) shown.push_back(name);
+  return parse_dxf(content, import.file, shown);
 }
 
 /// Joint of a layer, and whether its lines are read at all.
@@ -146,7 +151,9 @@ class Taker {
       imports_.fixed_import.push_back(number_);
     }
     imports_.drawn_in.push_back(drawing_.units);
+    imports_.last_digit.push_back(import_.scale * metres(import_.units) * drawing_.digits.unit());
     imports_.notes.push_back(note_of(import_, count_, drawing_, taken_));
+    warn_of_faults();
     if (count_ > 0) return std::nullopt;
     return Fault{member_of(import_.where, "file"), imports_.notes.back(),
                  import_.as == ImportAs::blocks
@@ -157,6 +164,16 @@ class Taker {
 
  private:
   Vec2 placed(Vec2 p) const { return import_.shift + import_.scale * metres(import_.units) * p; }
+
+  void warn_of_faults() {
+    if (!drawing_.fault) return;
+    const Fault& first = *drawing_.fault;
+    imports_.warnings.push_back(
+        import_.where.key + ": " + counted(static_cast<std::size_t>(drawing_.faulty), "part") +
+        " of the drawing " + (drawing_.faulty == 1 ? "has a fault and is" : "have faults and are") +
+        " left out; " + std::filesystem::path(import_.file).filename().string() + ", line " +
+        std::to_string(first.where.line) + ": " + first.problem + ": " + first.remedy);
+  }
 
   std::optional<Fault> take(const DrawnLine& line) {
     if (table_) {

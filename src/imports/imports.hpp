@@ -35,7 +35,9 @@ struct Imports {
                                                     ///< without length; m, model coordinates
   std::vector<Index> fixed_import;                  ///< import of each
   std::vector<std::optional<LengthUnit>> drawn_in;  ///< per import the unit given in the file
+  std::vector<double> last_digit;  ///< per import one unit of the last digit of its coordinates, m
   std::vector<std::string> notes;  ///< per import what was read and what was left out
+  std::vector<std::string> warnings;  ///< parts of drawings that are left out for a fault
 };
 
 /// Reads the files of model.imports. Faults, one per file: it cannot be read, does not have its

@@ -1,4 +1,5 @@
 // DXF drawings: their sections. dxf_groups.hpp describes their structure.
+#include "imports/code_page.hpp"
 #include "imports/drawing.hpp"
 #include "imports/dxf_blocks.hpp"
 
@@ -12,7 +13,7 @@ void read_entities(DxfSection& section, DxfCollector& content) {
       section.fault().add(entity->line, "the section of entities is not ended by ENDSEC");
       return;
     }
-    if (!content.add(*entity)) return;
+    content.add(*entity);
   }
   section.fault().add(section.line(), "breaks off within its entities");
 }
@@ -39,14 +40,18 @@ std::optional<LengthUnit> drawing_unit(std::optional<int> number) {
 
 }  // namespace
 
-Result<Drawing> parse_dxf(std::string_view text, const std::string& path) {
+Result<Drawing> parse_dxf(std::string_view text, const std::string& path,
+                          const std::vector<std::string>& shown) {
   if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
+  const std::string decoded = utf8_of(text);
+  text = decoded;
   DxfFault fault(path);
   DxfGroups file(text, fault);
   if (text.starts_with("AutoCAD Binary DXF")) fault.add(1, "is a binary drawing");
-  DxfCollector entities(fault);
-  DxfBlocks blocks;
   Drawing drawing;
+  DxfCollector entities(path, drawing.digits);
+  DxfBlocks blocks;
+  DxfTables tables(shown);
   bool section = false, has_entities = false, says_units = false;
   for (auto group = file.next(); group && !fault.found(); group = file.next()) {
     const bool names_it = section && group->code == 2;
@@ -55,16 +60,15 @@ Result<Drawing> parse_dxf(std::string_view text, const std::string& path) {
     says_units = group->code == 9 && group->value == "$INSUNITS";
     if (!names_it) continue;
     DxfSection inner(file);
-    if (group->value == "BLOCKS") read_blocks(inner, blocks);
+    if (group->value == "BLOCKS") read_blocks(inner, drawing.digits, blocks);
+    if (group->value == "TABLES") tables.read_layers(inner);
+    if (group->value == "OBJECTS") tables.read_objects(inner);
     if (group->value != "ENTITIES") continue;
     has_entities = true;
     read_entities(inner, entities);
   }
-  DxfContent content = entities.finish(file.line());
   if (!has_entities) fault.add(0, "has no section of entities");
-  drawing.lines = std::move(content.lines);
-  drawing.skipped = std::move(content.skipped);
-  if (!fault.found()) place_blocks(blocks, content.inserts, drawing, fault);
+  if (!fault.found()) place_content(entities.finish(), blocks, tables, drawing, fault);
   if (fault.found()) return *fault.found();
   return drawing;
 }

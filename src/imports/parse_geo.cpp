@@ -109,6 +109,7 @@ Result<Drawing> parse_numbers(std::string_view text, const std::string& path) {
   for (int i = 0; i < lines && !file.fault(); ++i) {
     const int line = file.line();
     const Vec2 a = file.point("an end of a line"), b = file.point("an end of a line");
+    for (const double x : {a.x, a.y, b.x, b.y}) drawing.digits.add(x);
     drawing.lines.push_back({{a, b}, whole_name(file.number("the type of a line")), line});
   }
   for (int i = 0; i < 5 * materials && !file.fault(); ++i) file.number("a material line");
@@ -222,6 +223,7 @@ Result<Drawing> parse_tags(std::string_view text, const std::string& path) {
       return found;
     }
     if (joint) {
+      for (const double x : {a.x, a.y, b.x, b.y}) drawing.digits.add(x);
       drawing.lines.push_back({{a, b}, attribute(tag.attributes, "type"), tag.line});
     } else {
       drawing.fixed.emplace_back(a, b);

@@ -95,6 +95,8 @@ std::vector<Vec2> spline_points(const SplineCurve& curve) {
     if (!(curve.knots[k] < curve.knots[k + 1])) continue;
     const Bezier piece = piece_from(curve, k);
     if (points.empty()) points.push_back(piece.front().place());
+    constexpr double digits = 1e-6;
+    if (!(norm(piece.front().place() - points.back()) <= digits * curve.size())) return {};
     constexpr int deepest = 20;
     add_corners(piece, tolerance, deepest, points);
   }

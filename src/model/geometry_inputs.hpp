@@ -19,7 +19,8 @@ inline constexpr Index none = -1;
 
 enum class Spread { uniform, normal };
 enum class JointSpread { uniform, normal, exponential };
-enum class LengthKind { lognormal, power, constant };
+enum class LengthKind { lognormal, power, constant, exponential };
+enum class NetworkModel { traces, baecher, veneziano };
 enum class ShapeKind { arch, circle, rectangle, horseshoe };
 enum class ImportAs { lines, blocks };
 enum class LengthUnit { m, mm, cm, km, ft, in };
@@ -79,6 +80,9 @@ struct JointSet {
   Ring region;                         ///< empty: the whole domain
   std::optional<double> trace_length;  ///< m; none: persistent
   double gap = 0.0;                    ///< m, between one trace and the next
+  std::optional<double> stagger;       ///< m, of the traces from one joint, or layer, to the next
+  std::string bounded_by;  ///< name of the set of beds from one to the next of which it runs
+  Index beds = none;       ///< that set, in Model::joint_sets
   Deviation deviation;
   long long seed = 0;
   Where where;
@@ -98,17 +102,19 @@ struct AngleSpread {
 
 struct LengthSpread {
   LengthKind distribution = LengthKind::lognormal;
-  std::optional<double> mean;      ///< m; lognormal, constant
+  std::optional<double> mean;      ///< m; lognormal, constant, exponential
   double deviation = 0.0;          ///< m; standard deviation of a lognormal
   std::optional<double> exponent;  ///< power: density falls as length to minus this
   std::optional<double> min, max;  ///< m; power
 };
 
-/// [[fracture_network]]: independent fractures.
+/// [[fracture_network]]: fractures at random.
 struct FractureNetwork {
   std::string name;
-  std::optional<double> p21;       ///< 1/m: length per area inside the domain; either this
-  std::optional<long long> count;  ///< or the number of fractures that reach into the domain
+  NetworkModel model = NetworkModel::traces;
+  std::optional<double> persistence;  ///< veneziano: part of each line that is fracture
+  std::optional<double> p21;          ///< 1/m: length per area inside the domain; either this
+  std::optional<long long> count;     ///< or the number of fractures that reach into the domain
   AngleSpread angle;
   LengthSpread length;
   Index joint = none;
@@ -132,10 +138,11 @@ struct Import {
   std::string file;  ///< path
   LengthUnit units = LengthUnit::m;
   double scale = 1.0;
-  bool size_given = false;                               ///< the model gives units or scale
-  Vec2 shift;                                            ///< m, after scaling
-  ImportAs as = ImportAs::lines;                         ///< lines cut rock, closed ones are blocks
-  std::vector<std::pair<std::string, Index>> layers;     ///< layer -> joint; empty: all layers
+  bool size_given = false;                            ///< the model gives units or scale
+  Vec2 shift;                                         ///< m, after scaling
+  std::optional<double> snap;                         ///< m: ends closer to a line are joined to it
+  ImportAs as = ImportAs::lines;                      ///< lines cut rock, closed ones are blocks
+  std::vector<std::pair<std::string, Index>> layers;  ///< layer -> joint; empty: all layers
   std::vector<std::pair<std::string, Index>> materials;  ///< layer -> material; as blocks
   std::vector<std::string> fixed;                        ///< layers of fixed blocks; as blocks
   Index joint = none;                                    ///< law of lines whose layer names none

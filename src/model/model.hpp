@@ -23,6 +23,7 @@ enum class Plane { strain, stress };
 enum class ContactModel { faces, points };
 enum class LawType { coulomb, glued, slip_weakening, barton_bandis };
 enum class BoundaryType { fixed, roller, viscous, stress, velocity, free_field, displacement };
+enum class AccelerationUnit { as_stated, m_s2, g, cm_s2, gal, mm_s2 };
 enum class ShakingKind { base, inertia, upgoing };
 enum class BoltType { grouted, end };
 enum class SurfaceKind { level, outline };
@@ -89,8 +90,9 @@ struct ContactDefaults {
   // Springs at each end of a face, Pa (N/m per metre of thickness); none: they follow from the
   // blocks (model/contact_springs.hpp).
   std::optional<double> normal_stiffness, shear_stiffness;
-  double stiffer = 1.0;  ///< not a key: by what those that follow from the blocks are multiplied
-  Index joint = none;    ///< law of contacts whose edges name none; none only if no law is needed
+  double stiffer = 1.0;     ///< not a key: by what those that follow from the blocks are multiplied
+  double close_gaps = 0.0;  ///< m: joints of given blocks drawn up to so wide are closed
+  Index joint = none;  ///< law of contacts whose edges name none; none only if no law is needed
   Where where;
 };
 
@@ -143,6 +145,8 @@ struct Accelerogram {
   std::vector<double> time;        ///< s, ascending
   std::vector<Vec2> acceleration;  ///< m/s2
   std::vector<Vec2> velocity;      ///< m/s
+  std::string read_as;             ///< what the file was taken for, with its unit; for reports
+  bool unit_known = false;         ///< the file or the model states the unit of its accelerations
 };
 
 /// Where an acceleration comes from: a file, or a sine.
@@ -158,6 +162,8 @@ struct Shaking {
   std::string name;
   Acceleration acceleration;
   Vec2 direction{1.0, 0.0};  ///< of a file that has one component; its length does not matter
+  AccelerationUnit units = AccelerationUnit::as_stated;  ///< of the file
+  int component = 1;                                     ///< of a record that has several, from 1
   double scale = 1.0;
   ShakingKind apply = ShakingKind::base;
   std::string boundary;  ///< upgoing: name of the viscous boundary that the wave comes in through

@@ -61,8 +61,9 @@ std::string shaking_line(const Shaking& s, std::size_t row) {
   for (const Vec2 a : s.record.acceleration) peak = std::max(peak, std::abs(s.scale) * norm(a));
   const Vec2 end = velocity_at(s, s.record.time.back());
   return fmt::format(
-      "{}: {} to {:.4g} s, peak {:.4g} m/s2; its velocity ends at ({:.4g}, {:.4g}) m/s", name,
-      counted(s.record.time.size(), "row"), s.record.time.back(), peak, end.x, end.y);
+      "{}: {}, {} to {:.4g} s, peak {:.4g} m/s2; its velocity ends at ({:.4g}, {:.4g}) m/s", name,
+      s.record.read_as, counted(s.record.time.size(), "row"), s.record.time.back(), peak, end.x,
+      end.y);
 }
 
 std::string bolts_line(const Bolts& bolts) {

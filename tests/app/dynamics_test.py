@@ -97,7 +97,7 @@ class Dynamics(Program):
 
     def test_check_reports_them(self):
         out = self.expect(0, "check", "m.toml").stdout
-        for part in ("shaking quake: 4 rows to 0.3 s, peak", "its velocity ends at", "sine of 1 m/s2 and 5 Hz", "2 bolts of"):
+        for part in ("shaking quake: time, ax and ay in m/s2, 4 rows to 0.3 s, peak", "its velocity ends at", "sine of 1 m/s2 and 5 Hz", "2 bolts of"):
             self.assertIn(part, out)
 
     def test_bytes_do_not_depend_on_threads_or_stops(self):

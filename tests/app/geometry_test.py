@@ -200,6 +200,51 @@ class Geometry(Program):
         self.assertEqual(len(blocks), 4)
         self.assertIn("left out: 1 TEXT", report)
 
+    def test_rounded_traces_and_what_nearly_meets(self):
+        # A fault and joints that end on it, to 1 mm; the last one stops 5 mm above it.
+        self.write("FID,START_X,START_Y,END_X,END_Y\n1,0,3.333,30,13.333\n2,7.7,5.9,7.7,20\n3,15.1,8.366,15.1,20\n"
+                   "4,23.1,11.038,23.1,20\n", "t.csv")
+        blocks, _, report = self.through_all(BASE + DOMAIN + BOTTOM + '[[import]]\nfile = "t.csv"\n')
+        self.assertEqual(len(blocks), 4)
+        self.assertIn('left out: 1 column "FID"', report)
+        self.assertIn("import.0: 2 corners moved by up to 0.00", report)
+        for command in (("check", "m.toml"), ("run", "m.toml", "-o", "again")):
+            done = self.edda(*command)
+            self.assertIn("import.0: 1 end of its lines stops in the rock less than 0.005 m short", done.stdout + done.stderr)
+        self.assertIn("blocks           5 ", self.edda("cut", "m.toml", "--set", "import.0.snap=0.005").stdout)
+        message = self.edda("cut", "m.toml", "--set", "import.0.snap=1", code=2).stderr
+        self.assertIn("1 m is too coarse for a domain of 30 m: give at most 0.3", message)
+
+    def test_sets_that_lose_much_of_their_length(self):
+        self.write(BASE + DOMAIN + BOTTOM + """[[joint_set]]
+name = "bed"
+angle = 0
+spacing = 1
+[[joint_set]]
+name = "cross"
+angle = 90
+spacing = 2
+trace_length = 1.8
+gap = 0.2
+""")
+        for command in (("check", "m.toml"), ("run", "m.toml", "-o", "again")):
+            done = self.edda(*command)
+            self.assertRegex(done.stdout + done.stderr, r"joint_set.cross: [\d.]+ m of its [\d.]+ m end inside blocks")
+        bound = self.edda("cut", "m.toml", "--set", 'joint_set.cross={angle=90, spacing=2, bounded_by="bed", stagger=1}')
+        self.assertIn("blocks           310 ", bound.stdout)
+        for wrong, message in (('"bad"', 'did you mean "bed"?'), ('"cross"', "no other joint set is called")):
+            done = self.edda("cut", "m.toml", "--set", f"joint_set.cross={{name=\"cross\", angle=90, spacing=2, bounded_by={wrong}}}", code=2)
+            self.assertIn(message, done.stderr)
+
+    def test_walls_drawn_with_mortar(self):
+        stones = "".join(f"[[block]]\nfixed = {'true' if y < 0 else 'false'}\npolygon = [[0, {y}], [1, {y}], [1, {y + 0.99}], [0, {y + 0.99}]]\n"
+                         for y in (-1, 0, 1))
+        self.write(BASE + stones + '[fos]\nvary = "kh"\n')
+        self.assertIn("close_gaps: 4 edges of 3 blocks moved by up to 0.005 m",
+                      self.edda("check", "m.toml", "--set", "contact.close_gaps=0.01").stdout)
+        done = self.edda("limit", "m.toml", "--set", "contact.close_gaps=10 mm")
+        self.assertIn("kh 0.50", done.stdout)
+
     def test_seeds(self):
         self.write(MAPPED)
         texts = []
@@ -242,7 +287,6 @@ class Geometry(Program):
             ("squares.geo", SQUARES.replace("0.2 0.5 0.8 0.5", "9 9 9 9"), "meets no block"),
             ("d.dxf", DRAWING[:90], "d.dxf:"),
             ("d.dxf", "\x00\x01\x02", "not a group code"),
-            ("d.dxf", DRAWING.replace("5000\n", "x\n", 1), "d.dxf:12:1: "),
             ("d.dxf", "", "no section of entities"),
         ]:
             self.write(text, name)
@@ -254,6 +298,14 @@ class Geometry(Program):
             (self.dir / name).unlink()
             self.assertIn("no such file", self.edda("check", "m.toml", code=2).stderr)
         self.assertFalse((self.dir / "m").exists())
+
+    def test_bad_entities(self):
+        self.write(DRAWING.replace("5000\n", "x\n", 1), "d.dxf")
+        self.write(DXF)
+        for command in (("check", "m.toml"), ("run", "m.toml", "-o", "out")):
+            done = self.edda(*command)
+            self.assertIn('1 part of the drawing has a fault and is left out; d.dxf, line 12: "x" is not a length',
+                          done.stdout + done.stderr)
 
 
 if __name__ == "__main__":

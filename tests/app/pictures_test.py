@@ -49,7 +49,7 @@ class Pictures(RampProgram):
             head = "time,bolt,x,y,axial_force,yielded,ruptured"
             (self.dir / "m/bolts.csv").write_text("\n".join([head, *rows, ""]))
             self.expect(0, "plot", "m", "-o", "p.svg", "--field", "none")
-            lines = re.findall('<path [^>]*stroke:rgb\\(5%,25%,65%\\)[^>]*>', (self.dir / "p.svg").read_text())
+            lines = re.findall('<path [^>]*stroke(?:: *|=")rgb\\(5%, ?25%, ?65%\\)[^>]*>', (self.dir / "p.svg").read_text())
             self.assertEqual(len(lines), 2, names)
 
     def test_plot_takes_its_size_from_paper_and_pixels(self):

@@ -6,6 +6,7 @@
 
 #include <memory>
 #include <random>
+#include <utility>
 #include <vector>
 
 #include "cutting/noding.hpp"
@@ -21,7 +22,6 @@ namespace edda::snapping_test {
 namespace {
 
 using geos::geom::Coordinate;
-using geos::noding::NodedSegmentString;
 using geos::noding::SegmentString;
 
 struct Edge {
@@ -38,10 +38,10 @@ std::vector<std::unique_ptr<SegmentString>> owned(const std::vector<SegmentStrin
 std::vector<Edge> edges_by_geos(const LineWork& work, double snap) {
   std::vector<SegmentString*> input;
   for (const LineString& line : work.lines) {
-    auto points = std::make_unique<geos::geom::CoordinateArraySequence>();
+    auto points = std::make_unique<GeosPoints>();
     for (Vec2 p : line.points) points->add(Coordinate(p.x, p.y));
-    input.push_back(new NodedSegmentString(points.release(),
-                                           &work.sources[static_cast<std::size_t>(line.source)]));
+    input.push_back(
+        noded_string(std::move(points), &work.sources[static_cast<std::size_t>(line.source)]));
   }
   const auto keep = owned(input);
   geos::noding::snap::SnappingNoder noder(snap);

@@ -69,4 +69,18 @@ inline void expect_fault(const Result<Drawing>& result, int line, const std::str
   EXPECT_EQ(to_string(f).find('\n'), std::string::npos);
 }
 
+/// The drawing is read, but for what has the fault.
+inline void expect_left_out(const Result<Drawing>& result, int line, const std::string& fragment) {
+  ASSERT_TRUE(result.ok()) << to_string(result.faults().front());
+  const Drawing& drawing = result.value();
+  ASSERT_TRUE(drawing.fault.has_value()) << fragment;
+  expect_fault(*drawing.fault, line, fragment);
+  EXPECT_GE(drawing.faulty, 1);
+  int counted = 0;
+  for (const auto& [kind, count] : drawing.skipped) {
+    if (kind.ends_with(" with a fault")) counted += count;
+  }
+  EXPECT_EQ(counted, drawing.faulty);
+}
+
 }  // namespace edda::test

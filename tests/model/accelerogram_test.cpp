@@ -17,7 +17,8 @@ Shaking of_record(Accelerogram record) {
 }
 
 TEST(Accelerogram, RowsAreLinearBetweenAndZeroBeyond) {
-  const auto read = parse_acceleration_rows("time,ax,ay\n0.5,0,1\n1.5,2,1\n2,0,0\n", "f.csv", "k");
+  const auto read =
+      parse_acceleration_rows("time,ax,ay\n0.5,0,1\n1.5,2,1\n2,0,0\n", {}, "f.csv", "k");
   ASSERT_TRUE(read.ok());
   const Shaking s = of_record(read.value());
   EXPECT_EQ(acceleration_at(s, 0.4), (Vec2{0.0, 0.0}));
@@ -39,7 +40,7 @@ TEST(Accelerogram, VelocityIsTheIntegral) {
   sine.acceleration.frequency = 3.0;
   sine.acceleration.direction = {3.0, -4.0};
   const auto read =
-      parse_acceleration_rows("0,1,-1\n0.1,2,0.5\n0.3,-4,0.25\n0.35,0,1\n", "f.csv", "k");
+      parse_acceleration_rows("0,1,-1\n0.1,2,0.5\n0.3,-4,0.25\n0.35,0,1\n", {}, "f.csv", "k");
   ASSERT_TRUE(read.ok());
   for (const Shaking& s : {sine, of_record(read.value())}) {
     Vec2 v;
@@ -55,7 +56,8 @@ TEST(Accelerogram, VelocityIsTheIntegral) {
 
 TEST(Accelerogram, NamesThatAreNotKnownGoByPosition) {
   for (const char* names : {"time,east,up\n", "t,ax (m/s2),vertical\n", "Time (s), X, Y\n"}) {
-    const auto read = parse_acceleration_rows(std::string(names) + "0,1,2\n1,3,4\n", "f.csv", "k");
+    const auto read =
+        parse_acceleration_rows(std::string(names) + "0,1,2\n1,3,4\n", {}, "f.csv", "k");
     ASSERT_TRUE(read.ok()) << to_string(read.faults().front());
     EXPECT_EQ(read.value().acceleration[1], (Vec2{3.0, 4.0})) << names;
   }
@@ -66,7 +68,7 @@ TEST(Accelerogram, ReadsBothHeadsOfPeer) {
   for (const std::string head :
        {"a\nb\nACCELERATION TIME SERIES IN UNITS OF G\nNPTS=  3, DT= .0050 SEC,\n",
         "a\nb\nACCELERATION TIME HISTORY IN UNITS OF G\n   3   0.0050   NPTS, DT\r\n"}) {
-    const auto read = parse_at2(head + body, {0.0, 2.0}, "f.AT2", "k");
+    const auto read = parse_at2(head + body, {{0.0, 2.0}, 1, {}}, "f.AT2", "k");
     ASSERT_TRUE(read.ok()) << to_string(read.faults().front());
     EXPECT_EQ(read.value().time, (std::vector<double>{0.0, 0.005, 0.01}));
     EXPECT_EQ(read.value().acceleration[2], (Vec2{0.0, 0.3 * g}));
@@ -84,18 +86,18 @@ TEST(Accelerogram, ReportsWhatIsWrongAndWhere) {
   for (const Case& c :
        {Case{true, "", 0, "no line with NPTS and DT"},
         Case{true, "1 2 3\n", 0, "no line with NPTS"},
-        Case{true, "a\nb\nIN UNITS OF CM/S/S\nNPTS= 2, DT= .01\n", 3, "not in units of g"},
+        Case{true, "a\nb\nIN UNITS OF VOLTS\nNPTS= 2, DT= .01\n", 3, "not in units of g"},
         Case{true, "a\nb\nc\nNPTS= two, DT= .01\n", 4, "no NPTS and DT"},
         Case{true, "a\nb\nc\nNPTS= 2, DT= 0\n", 4, "no NPTS and DT"},
         Case{true, head + "0.1 x\n", 5, "no number"}, Case{true, head + "0.1\n", 0, "holds 1"},
-        Case{true, head + "0.1 0.2\n0.3", 0, "holds 3"},
-        Case{false, "0,1\n", 1, "is not three numbers"}, Case{false, "", 0, "has no rows"},
+        Case{true, head + "0.1 0.2\n0.3", 0, "holds 3"}, Case{false, "0,1\n", 1, "has two columns"},
+        Case{false, "0,1,x\n", 1, "is not three numbers"}, Case{false, "", 0, "has no rows"},
         Case{false, "0,1,2\n0,1,2\n", 2, "does not come after"},
         Case{false, "time,ay,ax\n0,1,2\n", 1, "in another order: time,ay,ax"},
         Case{false, "T (s), Ay (m/s2), east\n0,1,2\n", 1, "in another order"},
         Case{false, "-1,1,2\n0,1,2\n", 0, "begins before time 0"}}) {
-    const auto read = c.peer ? parse_at2(c.text, {1.0, 0.0}, "f", "shaking.q.acceleration")
-                             : parse_acceleration_rows(c.text, "f", "shaking.q.acceleration");
+    const auto read = c.peer ? parse_at2(c.text, {}, "f", "shaking.q.acceleration")
+                             : parse_acceleration_rows(c.text, {}, "f", "shaking.q.acceleration");
     ASSERT_FALSE(read.ok()) << c.text;
     const Fault& f = read.faults().front();
     EXPECT_EQ(f.where.line, c.line) << c.text;

@@ -46,6 +46,7 @@ model = "faces"
 normal_stiffness = "200 MN/m"
 shear_stiffness = 1e8
 joint = "rough"
+close_gaps = "15 mm"
 [[block]]
 name = "slider"
 polygon = [[0, 0], [0, "10 cm"], [1, 1], [2, -0.0]]
@@ -74,12 +75,18 @@ joint = "glue"
 region = [[11, 1], [19, 1], [15, 9]]
 trace_length = "3 m"
 gap = 0.25
+stagger = "-50 cm"
 deviation = { angle = 3, spacing = 0.1, trace_length = 1, gap = 0.2, distribution = "normal" }
 seed = 7
 [[joint_set]]
+name = "beds"
 dip = 60
 dip_direction = 300
 spacing = 4
+[[joint_set]]
+angle = 90
+spacing = 2
+bounded_by = "beds"
 [[trace]]
 points = [[11, 1], [12, 5], [13, 5]]
 joint = "rough"
@@ -95,6 +102,12 @@ seed = 8
 count = 9
 angle = { mean = 1 }
 length = { distribution = "power", exponent = 2.5, min = 1, max = 4 }
+[[fracture_network]]
+model = "veneziano"
+persistence = 0.6
+count = 5
+angle = { mean = 1 }
+length = { distribution = "exponential", mean = 2 }
 [voronoi]
 size = 2
 smoothing = 3
@@ -106,6 +119,7 @@ file = "t.csv"
 units = "cm"
 scale = 2
 shift = [1, 2]
+snap = "2 mm"
 layers = { "J 1" = "glue", b = "rough" }
 joint = "glue"
 [[import]]
@@ -205,6 +219,8 @@ history = "tests/model/rise.csv"
 name = "quake"
 acceleration = "tests/model/quake.at2"
 direction = [0, 2]
+units = "g"
+component = 2
 scale = -0.5
 apply = "inertia"
 [[shaking]]

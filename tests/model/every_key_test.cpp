@@ -69,6 +69,7 @@ void expect_every_key(const Model& m) {
   EXPECT_EQ(m.contact.normal_stiffness, 2e8);
   EXPECT_EQ(m.contact.shear_stiffness, 1e8);
   EXPECT_EQ(m.contact.joint, 1);
+  EXPECT_EQ(m.contact.close_gaps, 0.015);
 }
 
 void expect_every_part(const Model& m) {
@@ -89,7 +90,7 @@ void expect_every_part(const Model& m) {
   EXPECT_EQ(m.domain->joint, 1);
   EXPECT_EQ(m.domain->snap, 1e-6);
   EXPECT_EQ(m.domain->max_blocks, 2000000000);
-  ASSERT_EQ(m.joint_sets.size(), 2U);
+  ASSERT_EQ(m.joint_sets.size(), 3U);
   EXPECT_EQ(m.joint_sets[0].name, "bedding");
   EXPECT_EQ(m.joint_sets[0].angle, -400.5);
   EXPECT_EQ(m.joint_sets[0].spacing, 0.7);
@@ -126,10 +127,16 @@ void expect_every_joint_key(const Model& m) {
   EXPECT_EQ(set.deviation.gap, 0.2);
   EXPECT_EQ(set.deviation.distribution, JointSpread::normal);
   EXPECT_EQ(set.seed, 7);
+  EXPECT_EQ(set.stagger, -0.5);
+  EXPECT_EQ(m.joint_sets[2].bounded_by, "beds");
+  EXPECT_EQ(m.joint_sets[2].beds, 1);
   EXPECT_EQ(m.joint_sets[1].dip, 60.0);
   EXPECT_EQ(m.joint_sets[1].dip_direction, 300.0);
   EXPECT_EQ(m.joint_sets[1].given_spacing, 4.0);
-  ASSERT_EQ(m.networks.size(), 2U);
+  ASSERT_EQ(m.networks.size(), 3U);
+  EXPECT_EQ(m.networks[2].model, NetworkModel::veneziano);
+  EXPECT_EQ(m.networks[2].persistence, 0.6);
+  EXPECT_EQ(m.networks[2].length.distribution, LengthKind::exponential);
   const FractureNetwork& f = m.networks[0];
   EXPECT_EQ(f.name, "f");
   EXPECT_EQ(f.p21, 1.2);
@@ -169,6 +176,7 @@ void expect_every_shape_key(const Model& m) {
   EXPECT_EQ(m.imports[0].shift, (Vec2{1, 2}));
   EXPECT_EQ(m.imports[0].layers, (JointMap{{"J 1", 0}, {"b", 1}}));
   EXPECT_EQ(m.imports[0].joint, 0);
+  EXPECT_EQ(m.imports[0].snap, 0.002);
   EXPECT_EQ(m.openings[1].shape->kind, ShapeKind::horseshoe);
   EXPECT_EQ(m.openings[1].shape->at, (Vec2{12, 7}));
   EXPECT_EQ(m.openings[1].shape->width, 2.0);
@@ -224,6 +232,8 @@ void expect_every_boundary_key(const Model& m) {
   ASSERT_EQ(m.shakings.size(), 2U);
   EXPECT_EQ(m.shakings[0].name, "quake");
   EXPECT_EQ(m.shakings[0].direction, (Vec2{0, 2}));
+  EXPECT_EQ(m.shakings[0].units, AccelerationUnit::g);
+  EXPECT_EQ(m.shakings[0].component, 2);
   EXPECT_EQ(m.shakings[0].scale, -0.5);
   EXPECT_EQ(m.shakings[0].apply, ShakingKind::inertia);
   ASSERT_EQ(m.shakings[0].record.acceleration.size(), 5U);

@@ -37,8 +37,7 @@ HistoryPicture picture_of(const Table& table, const std::vector<std::string>& na
 /// The line drawn with the first colour, 1 pt wide.
 std::vector<Vec2> first_line(const std::string& svg) {
   for (const std::string& path : stroked(svg, {0.000, 0.447, 0.698})) {
-    if (attribute(path, "style").find("stroke-width:1;") != std::string::npos)
-      return points_of(path);
+    if (property(path, "stroke-width") == "1") return points_of(path);
   }
   return {};
 }

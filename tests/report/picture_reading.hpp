@@ -50,13 +50,21 @@ inline std::optional<Vec2> text_of(const std::string& svg, const std::string& te
   return places.empty() ? std::nullopt : std::optional<Vec2>(places.front());
 }
 
+/// A property of a path such as "fill" or "stroke-width": cairo 1.16 writes them in one attribute
+/// style, 1.18 as attributes of their own. Empty where it has none.
+inline std::string property(const std::string& path, const std::string& what) {
+  if (const std::string own = attribute(path, what); !own.empty()) return own;
+  const std::string style = ";" + attribute(path, "style") + ";", key = ";" + what + ":";
+  const std::size_t at = style.find(key);
+  if (at == std::string::npos) return {};
+  const std::size_t begin = at + key.size();
+  return style.substr(begin, style.find(';', begin) - begin);
+}
+
 /// A colour of a path: `what` is "fill" or "stroke".
 inline std::optional<Colour> colour_of(const std::string& path, const std::string& what) {
-  const std::string style = ";" + attribute(path, "style"), key = ";" + what + ":rgb(";
-  const std::size_t at = style.find(key);
   Colour c;
-  if (at == std::string::npos ||
-      std::sscanf(style.c_str() + at + key.size(), "%lf%%,%lf%%,%lf%%", &c.r, &c.g, &c.b) != 3)
+  if (std::sscanf(property(path, what).c_str(), "rgb(%lf%%, %lf%%, %lf%%", &c.r, &c.g, &c.b) != 3)
     return {};
   return Colour{c.r / 100.0, c.g / 100.0, c.b / 100.0};
 }
@@ -69,7 +77,7 @@ inline bool looks_like(Colour a, Colour b) {
 inline std::vector<Colour> block_fills(const std::string& svg, std::size_t count) {
   std::vector<Colour> fills;
   for (const std::string& path : elements(svg, "path")) {
-    if (attribute(path, "style").find("evenodd") == std::string::npos) continue;
+    if (property(path, "fill-rule") != "evenodd") continue;
     if (const auto fill = colour_of(path, "fill"); fill && fills.size() < count)
       fills.push_back(*fill);
   }
@@ -89,8 +97,7 @@ inline std::vector<std::string> stroked(const std::string& svg, Colour colour) {
 inline std::vector<double> stroke_widths(const std::string& svg, Colour colour) {
   std::vector<double> widths;
   for (const std::string& path : stroked(svg, colour)) {
-    const std::string style = attribute(path, "style"), key = "stroke-width:";
-    widths.push_back(std::atof(style.c_str() + style.find(key) + key.size()));
+    widths.push_back(std::atof(property(path, "stroke-width").c_str()));
   }
   return widths;
 }

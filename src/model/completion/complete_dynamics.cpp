@@ -101,12 +101,31 @@ void check_place(const Value* node, const Boundary& boundary, Reading& reading) 
   }
 }
 
+std::optional<double> metres_per_s2(AccelerationUnit unit) {
+  constexpr double standard_gravity = 9.80665;
+  switch (unit) {
+    case AccelerationUnit::m_s2:
+      return 1.0;
+    case AccelerationUnit::g:
+      return standard_gravity;
+    case AccelerationUnit::cm_s2:
+    case AccelerationUnit::gal:
+      return 1e-2;
+    case AccelerationUnit::mm_s2:
+      return 1e-3;
+    case AccelerationUnit::as_stated:
+      break;
+  }
+  return std::nullopt;
+}
+
 void read_record(const Value* node, Shaking& shaking, Reading& reading) {
   std::string& path = shaking.acceleration.file;
   if (path.empty()) return;
   const std::string key = shaking.where.key + ".acceleration";
   path = beside_model(path, reading.model.file);
-  Result<Accelerogram> read = read_accelerogram(path, shaking.direction, key);
+  const RecordReading how{shaking.direction, shaking.component, metres_per_s2(shaking.units)};
+  Result<Accelerogram> read = read_accelerogram(path, how, key);
   if (read) {
     shaking.record = std::move(read.value());
     return;

@@ -114,6 +114,42 @@ void complete_joint_set(const Value* node, JointSet& set, Reading& reading) {
   project(node, reading.model.section->azimuth, set, reading);
 }
 
+/// The beds of a set that runs from bed to bed.
+void complete_beds(const Value* node, JointSet& set, Reading& reading) {
+  const std::string& path = set.where.key;
+  if (given(node, "stagger") && !set.trace_length && set.bounded_by.empty()) {
+    add_fault(reading, find(node, "stagger")->place, path + ".stagger",
+              "the joints extend through the whole domain",
+              "give trace_length or bounded_by, or leave it out");
+  }
+  if (set.bounded_by.empty()) return;
+  const auto fault = [&](std::string problem, std::string remedy) {
+    add_fault(reading, find(node, "bounded_by")->place, path + ".bounded_by", std::move(problem),
+              std::move(remedy));
+  };
+  const std::vector<JointSet>& sets = reading.model.joint_sets;
+  std::vector<std::string_view> names;
+  for (std::size_t i = 0; i < sets.size(); ++i) {
+    if (!sets[i].name.empty() && &sets[i] != &set) names.push_back(sets[i].name);
+    if (sets[i].name == set.bounded_by && &sets[i] != &set) set.beds = static_cast<Index>(i);
+  }
+  if (set.beds == none) {
+    return fault("no other joint set is called \"" + clipped(set.bounded_by) + '"',
+                 names.empty() ? "give the set of beds a name" : suggestion(set.bounded_by, names));
+  }
+  const JointSet& beds = sets[static_cast<std::size_t>(set.beds)];
+  if (beds.trace_length || !beds.bounded_by.empty() || beds.deviation.angle != 0.0) {
+    return fault("its joints are no beds: they end in the rock or cross each other",
+                 "name a set without trace_length, bounded_by and deviation of the angle");
+  }
+  if (set.trace_length) return fault("trace_length is given too", "give only one of them");
+  constexpr double parallel = 0.02;
+  const Vec2 a = circle_point(set.angle), b = circle_point(beds.angle);
+  if (std::abs(cross(a, b)) < parallel) {
+    fault("its beds run parallel to its joints", "name a set that these joints can end on");
+  }
+}
+
 void complete_network(const Value* node, const FractureNetwork& network, Reading& reading) {
   const std::string& path = network.where.key;
   one_of(node, path, "p21", "count", "a density such as p21 = 1.2", reading);
@@ -130,8 +166,23 @@ void complete_network(const Value* node, const FractureNetwork& network, Reading
     add_fault(reading, find(length, key)->place, path + ".length." + key,
               fmt::format("belongs to distribution = {}", kinds), "leave it out");
   };
+  const bool veneziano = network.model == NetworkModel::veneziano;
+  if (veneziano && !given(node, "persistence")) {
+    add_fault(reading, node->place, path + ".persistence", "is missing",
+              "give the part of each line that is fracture, such as 0.6");
+  }
+  if (!veneziano && given(node, "persistence")) {
+    add_fault(reading, find(node, "persistence")->place, path + ".persistence",
+              "belongs to model = \"veneziano\"", "leave it out");
+  }
+  if (veneziano && spread.distribution != LengthKind::exponential) {
+    add_fault(reading, length->place, path + ".length.distribution",
+              "the fractures of Veneziano's model have exponential lengths",
+              "write distribution = \"exponential\"");
+    return;
+  }
   if (spread.distribution == LengthKind::power) {
-    needless("mean", "\"lognormal\" or \"constant\"");
+    needless("mean", "\"lognormal\", \"constant\" or \"exponential\"");
     needless("deviation", "\"lognormal\"");
     needed("min", "shortest length");
     needed("max", "longest length");
@@ -147,7 +198,7 @@ void complete_network(const Value* node, const FractureNetwork& network, Reading
   }
   needed("mean", "mean length");
   for (const char* key : {"exponent", "min", "max"}) needless(key, "\"power\"");
-  if (spread.distribution == LengthKind::constant) needless("deviation", "\"lognormal\"");
+  if (spread.distribution != LengthKind::lognormal) needless("deviation", "\"lognormal\"");
 }
 
 void complete_import(const Value* node, Import& import, Reading& reading) {
@@ -292,6 +343,8 @@ void complete_lines(const Value& root, Reading& reading) {
   Model& model = reading.model;
   each(root, "joint_set", model.joint_sets,
        [&](const Value* node, JointSet& set) { complete_joint_set(node, set, reading); });
+  each(root, "joint_set", model.joint_sets,
+       [&](const Value* node, JointSet& set) { complete_beds(node, set, reading); });
   each(root, "fracture_network", model.networks,
        [&](const Value* node, const FractureNetwork& network) {
          complete_network(node, network, reading);

@@ -137,11 +137,11 @@ void check_accelerations(const Model& model, std::vector<std::string>& warnings)
     }
     double peak = 0.0;
     for (const Vec2 row : shaking.record.acceleration) peak = std::max(peak, norm(row));
-    if (peak > 0.0 && shaking.scale == 1.0 && peak < weak && a.file.ends_with(".csv")) {
+    if (peak > 0.0 && shaking.scale == 1.0 && peak < weak && !shaking.record.unit_known) {
       doubts.add(
           fmt::format("{}.acceleration: the largest of {} is {:.3g} m/s2, hardly to be felt: "
-                      "if the file is in g, write scale = {:g}",
-                      key, a.file, peak, g));
+                      "if the file is in g, write units = \"g\"",
+                      key, a.file, peak));
     }
   }
   doubts.report(warnings);

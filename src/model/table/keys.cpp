@@ -63,6 +63,7 @@ constexpr std::array contact_keys{
     Key{"normal_stiffness", at<&ContactDefaults::normal_stiffness>, number_or("auto", D::stiffness, above(0)), otherwise("\"auto\": 10 x young between squares; such that joints add a twentieth to the deformation of the rock"), "Normal spring at each end of a face where the joint has no kn."},
     Key{"shear_stiffness", at<&ContactDefaults::shear_stiffness>, number_or("auto", D::stiffness, above(0)), otherwise("\"auto\": as normal_stiffness"), "Shear spring at each end of a face where the joint has no ks."},
     Key{"joint", at<&ContactDefaults::joint>, joint, otherwise(if_one), "Law of contacts whose edges name none."},
+    Key{"close_gaps", at<&ContactDefaults::close_gaps>, number(D::length, from(0)), or_none("none are"), "Joints between blocks, walls and drawn blocks that are drawn up to so wide, such as with mortar, are closed: both edges move to the middle between them."},
 };
 
 constexpr std::array block_keys{
@@ -119,8 +120,10 @@ constexpr std::array water_keys{
 
 constexpr std::array shaking_keys{
     Key{"name", at<&Shaking::name>, naming, otherwise("none"), "What --set, stages and messages call the ground motion."},
-    Key{"acceleration", at<&Shaking::acceleration>, source, required, "Acceleration of the ground: a CSV file of time, x and y (m/s2), an .AT2 file (g), or a sine as a table."},
-    Key{"direction", at<&Shaking::direction>, shape(Kind::point, D::plain), initial, "Direction of the one component in an .AT2 file."},
+    Key{"acceleration", at<&Shaking::acceleration>, source, required, "Acceleration of the ground: a CSV file of time, x and y (m/s2) or of time and one component, a record of PEER (AT2), K-NET, COSMOS, CSMIP, ESM or GeoNet, or a sine as a table."},
+    Key{"direction", at<&Shaking::direction>, shape(Kind::point, D::plain), initial, "Direction of the component of a file that has one."},
+    Key{"units", at<&Shaking::units>, choice, initial, "Unit of the accelerations in the file. As stated: in its head; a CSV file of two components without one is in m/s2."},
+    Key{"component", at<&Shaking::component>, whole(1, 9), initial, "Which component of a record that has several, in the order of the file."},
     Key{"scale", at<&Shaking::scale>, number(D::plain), initial, "Factor on the acceleration."},
     Key{"apply", at<&Shaking::apply>, choice, initial, "Fixed blocks and boundaries move (base), all blocks feel its inertia force (inertia), or it is a wave that enters upwards through a viscous boundary (upgoing)."},
     Key{"boundary", at<&Shaking::boundary>, naming, otherwise("the only viscous one"), "Upgoing: name of the viscous boundary through which the wave enters."},

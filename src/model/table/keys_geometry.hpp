@@ -50,8 +50,10 @@ inline constexpr std::array joint_set_keys{
     Key{"origin", at<&JointSet::origin>, point, initial, "One joint of the set passes through this point."},
     Key{"joint", at<&JointSet::joint>, joint, otherwise("domain.joint"), "Law of the joints of the set."},
     Key{"region", at<&JointSet::region>, polygon, otherwise("the whole domain"), "The set is only inside this polygon."},
-    Key{"trace_length", at<&JointSet::trace_length>, number(D::length, above(0)), otherwise("right through"), "Length of the traces on the section, one after the other along each joint."},
+    Key{"trace_length", at<&JointSet::trace_length>, number(D::length, above(0)), otherwise("right through"), "Length of the traces on the section, one after the other along each joint. Without deviations one begins at the origin."},
     Key{"gap", at<&JointSet::gap>, number(D::length, from(0)), initial, "Rock between the end of one trace and the start of the next."},
+    Key{"stagger", at<&JointSet::stagger>, number(D::length), otherwise("0; at random where there are deviations"), "Shift of the traces along the joint from each joint to the next, or with bounded_by along the beds from each layer to the next."},
+    Key{"bounded_by", at<&JointSet::bounded_by>, naming, otherwise("none"), "Name of another joint set, the beds: each joint runs from one bed to the next."},
     Key{"deviation", at<&JointSet::deviation>, table, initial, "Deviation of single joints from these."},
     Key{"seed", at<&JointSet::seed>, whole(0, 9e15), initial, "Another seed, another set of the same kind."},
 };
@@ -68,7 +70,7 @@ inline constexpr std::array angle_spread_keys{
 };
 
 inline constexpr std::array length_spread_keys{
-    Key{"distribution", at<&LengthSpread::distribution>, choice, initial, "Lognormal, a power law, or all alike."},
+    Key{"distribution", at<&LengthSpread::distribution>, choice, initial, "Lognormal, a power law, all alike, or exponential."},
     Key{"mean", at<&LengthSpread::mean>, number(D::length, above(0)), otherwise("required unless it is a power law"), "Mean length."},
     Key{"deviation", at<&LengthSpread::deviation>, number(D::length, from(0)), initial, "Lognormal: standard deviation of the length."},
     Key{"exponent", at<&LengthSpread::exponent>, number(D::plain, above_to(0, 20)), otherwise("required of a power law"), "Power law: the density falls with the length to this power."},
@@ -78,6 +80,8 @@ inline constexpr std::array length_spread_keys{
 
 inline constexpr std::array network_keys{
     Key{"name", at<&FractureNetwork::name>, naming, otherwise("none"), "What --set and messages call the network."},
+    Key{"model", at<&FractureNetwork::model>, choice, initial, "Traces: their middles are at random and their lengths are those on the section. Baecher: round discs at random in space, whose diameters are the lengths; the section shows chords of them. Veneziano: lines at random, parts of which are fractures, with exponential lengths."},
+    Key{"persistence", at<&FractureNetwork::persistence>, number(D::plain, above_to(0, 0.999)), otherwise("required of Veneziano's model"), "Veneziano: part of each line that is fracture."},
     Key{"p21", at<&FractureNetwork::p21>, number(D::per_length, above(0)), otherwise("none; either this or count"), "Length of fractures per area, counted inside the domain."},
     Key{"count", at<&FractureNetwork::count>, whole(1, 5e6), otherwise("none; either this or p21"), "Fractures that show in the domain."},
     Key{"angle", at<&FractureNetwork::angle>, table, required, "Directions."},
@@ -101,6 +105,7 @@ inline constexpr std::array import_keys{
     Key{"units", at<&Import::units>, choice, initial, "Unit of the coordinates in the file."},
     Key{"scale", at<&Import::scale>, number(D::plain, above(0)), initial, "Factor on the coordinates."},
     Key{"shift", at<&Import::shift>, point, initial, "Added to the coordinates after scaling."},
+    Key{"snap", at<&Import::snap>, number(D::length, from(0)), otherwise("what rounding to the last digit of the file can have moved"), "Ends of its lines that stop this close to another line are joined to it; 0: none are."},
     Key{"layers", at<&Import::layers>, rule(Kind::joint_map), otherwise("all layers; one called like a joint has its law"), "The layers that are read, and the law of each."},
     Key{"joint", at<&Import::joint>, joint, otherwise("domain.joint"), "Law of lines whose layer names none."},
     Key{"material", at<&Import::material>, material, otherwise(if_one), "Material of the blocks, where there is no domain, or with as = \"blocks\" where their layer names none."},

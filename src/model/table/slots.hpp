@@ -27,7 +27,9 @@ inline constexpr std::array<std::string_view, 2> loose_names{"go on", "stop"};
 inline constexpr std::array<std::string_view, 2> spread_names{"uniform", "normal"};
 inline constexpr std::array<std::string_view, 3> joint_spread_names{"uniform", "normal",
                                                                     "exponential"};
-inline constexpr std::array<std::string_view, 3> length_names{"lognormal", "power", "constant"};
+inline constexpr std::array<std::string_view, 4> length_names{"lognormal", "power", "constant",
+                                                              "exponential"};
+inline constexpr std::array<std::string_view, 3> network_names{"traces", "baecher", "veneziano"};
 inline constexpr std::array<std::string_view, 4> shape_names{"arch", "circle", "rectangle",
                                                              "horseshoe"};
 inline constexpr std::array<std::string_view, 2> import_as_names{"lines", "blocks"};
@@ -36,6 +38,8 @@ inline constexpr std::array<std::string_view, 3> action_names{"merge", "report",
 inline constexpr std::array<std::string_view, 7> boundary_names{
     "fixed", "roller", "viscous", "stress", "velocity", "free-field", "displacement"};
 inline constexpr std::array<std::string_view, 3> shaking_names{"base", "inertia", "upgoing"};
+inline constexpr std::array<std::string_view, 6> acceleration_unit_names{
+    "as stated", "m/s2", "g", "cm/s2", "gal", "mm/s2"};
 inline constexpr std::array<std::string_view, 2> bolt_names{"grouted", "end"};
 inline constexpr std::array<std::string_view, 2> surface_names{"level", "outline"};
 inline constexpr std::array<std::string_view, 4> side_names{"left", "right", "bottom", "top"};
@@ -88,8 +92,14 @@ constexpr std::span<const std::string_view> names_of(JointSpread) {
 constexpr std::span<const std::string_view> names_of(LengthKind) {
   return length_names;
 }
+constexpr std::span<const std::string_view> names_of(NetworkModel) {
+  return network_names;
+}
 constexpr std::span<const std::string_view> names_of(ShapeKind) {
   return shape_names;
+}
+constexpr std::span<const std::string_view> names_of(AccelerationUnit) {
+  return acceleration_unit_names;
 }
 constexpr std::span<const std::string_view> names_of(ImportAs) {
   return import_as_names;
