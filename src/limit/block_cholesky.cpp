@@ -105,9 +105,9 @@ void BlockCholesky::end_column(int k, const double* given) {
 
 void BlockCholesky::factorise() {
   const auto n = place_.size();
-  constexpr int none = -1;
+  constexpr int nothing = -1;
   // Columns whose next block is in the row of a column, linked from there.
-  std::vector<int> first_waiting(n, none), next_waiting(n, none), block_of(n, 0);
+  std::vector<int> first_waiting(n, nothing), next_waiting(n, nothing), block_of(n, 0);
   std::vector<std::size_t> at(n, 0);
   const auto wait = [&](int j, std::size_t block) {
     if (block == begin_[static_cast<std::size_t>(j) + 1]) return;
@@ -121,7 +121,7 @@ void BlockCholesky::factorise() {
       at[static_cast<std::size_t>(row_[b])] = b;
     const double* const d = &values[begin_[k] * area];
     const double given[side] = {d[0], d[4], d[8]};
-    for (int j = first_waiting[k]; j != none;) {
+    for (int j = first_waiting[k]; j != nothing;) {
       const auto column = static_cast<std::size_t>(j);
       const int next = next_waiting[column];
       take_column(j, block_of[column], at);

@@ -268,15 +268,12 @@ void add_bolts(RigidBlocks& rigid, const Simulation& sim, BoltForces forces) {
     if (bolts.rows[row].grouted) {
       add_grouted(rigid, sim, first, last);
     } else {
-      RigidTie tie{bolts.host[first],
-                   bolts.host[first + 1],
-                   node_place(bolts, sim.motion.state, first),
-                   node_place(bolts, sim.motion.state, first + 1),
-                   bar_frame(bolts, sim.motion.state, first).t,
-                   0.0,
-                   std::min(bolts.bars.strength[first], no_bound)};
-      if (forces == BoltForces::as_now) tie.least = tie.most = bolts.bars.force[first];
-      rigid.ties.push_back(tie);
+      const bool now = forces == BoltForces::as_now;
+      rigid.ties.push_back(
+          {bolts.host[first], bolts.host[first + 1], node_place(bolts, sim.motion.state, first),
+           node_place(bolts, sim.motion.state, first + 1),
+           bar_frame(bolts, sim.motion.state, first).t, now ? bolts.bars.force[first] : 0.0,
+           std::min(now ? bolts.bars.force[first] : bolts.bars.strength[first], no_bound)});
     }
   }
 }

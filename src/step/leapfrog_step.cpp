@@ -42,10 +42,9 @@ StepDamping step_damping(const Simulation& sim, double h, StrainDamping& strain,
     mass_damping_of_blocks(sim, kicks.mass);
     set_kicks(kicks, h);
     damping.kicks = &kicks;
-    if (damping.strain != nullptr) prepare(strain, sim.scene->blocks, masses, kicks.h);
-  } else if (damping.strain != nullptr) {
+    if (damping.strain) prepare(strain, sim.scene->blocks, masses, kicks.h);
+  } else if (damping.strain)
     prepare(strain, sim.scene->blocks, masses, h / (1.0 + 0.5 * damping.mass * h));
-  }
   return damping;
 }
 

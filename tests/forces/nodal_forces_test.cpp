@@ -165,7 +165,7 @@ TEST(DashpotForces, AreThoseOfTheMeanVelocityOfTheStep) {
   std::vector<Vec2> on_point(points);
   o.gather({0.0, -9.81});
   add_dashpots(o.forces, on_point, dashpots, {o.blocks, masses, o.state, vx, vy},
-               {h, mass_damping, reference, push}, 0, 1);
+               {h, mass_damping, nullptr, reference, push}, 0, 1);
   const NodalMatrix mass = mass_matrix(masses, 0);
   const NodalVector before = nodal(vx, vy, 0);
   const NodalMatrix left =

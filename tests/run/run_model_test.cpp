@@ -307,7 +307,8 @@ TEST(RunModel, AnEquilibriumReportsItsTimeAndWhatStillFalls) {
   const std::string loose =
       message(model("[[block]]\nname = \"loose\"\npolygon = [[9, 0], [9.5, 0], [9, 0.5]]\n"));
   EXPECT_NE(
-      loose.find("(wait), except for 1 block (0.125 m2) that has come loose: block 2 (loose) (moved "),
+      loose.find(
+          "(wait), except for 1 block (0.125 m2) that has come loose: block 2 (loose) (moved "),
       std::string::npos)
       << loose;
 }

@@ -327,9 +327,9 @@ TEST(Stages, LooseBlocksMayEndTheRun) {
   const Outcome stopped = ends("otherwise = 'stop'\n");
   EXPECT_EQ(stopped.status, Status::collapsed);
   EXPECT_LT(stopped.time, 2.0);
-  for (const char* part :
-       {"the model is in equilibrium after ", "except for 1 block (1 m2) that has come loose: block ",
-        "(falling)", "\"stop\" of stage 1 (settle) ends the run here"}) {
+  for (const char* part : {"the model is in equilibrium after ",
+                           "except for 1 block (1 m2) that has come loose: block ", "(falling)",
+                           "\"stop\" of stage 1 (settle) ends the run here"}) {
     EXPECT_NE(stopped.message.find(part), std::string::npos) << stopped.message;
   }
 }
