@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "base/text.hpp"
+#include "observe/balance.hpp"
 #include "step/labels.hpp"
 #include "step/tile_step.hpp"
 
@@ -35,20 +36,22 @@ void Judge::begin(const Simulation& sim) {
 void Judge::follow_supports(Simulation& sim) {
   constexpr double own_size = 1.0;
   if (!motion_.supports_have_moved(sim)) return;
-  for (const MovedSet& set : motion_.sets(sim, own_size, left_out_)) {
-    gone_.resize(sim.scene->blocks.size(), 0);
-    for (const Id i : set.blocks) gone_[i] = 1;
-  }
+  for (MovedSet& set : motion_.sets(sim, own_size, left_out_)) gone_.push_back(std::move(set));
   update_face_rows(sim);
   motion_ = RelativeMotion(sim);
 }
 
 void Judge::find_moved(Simulation& sim) {
-  moved_ = motion_.sets(sim, moved_little, left_out_);
-  left_ = gone_.empty() ? left_out_ : gone_;
-  for (std::size_t i = 0; i < left_out_.size(); ++i) left_[i] |= left_out_[i];
+  std::vector<std::uint8_t> out = left_out_;
+  for (const MovedSet& set : gone_) {
+    out.resize(sim.scene->blocks.size(), 0);
+    for (const Id i : set.blocks) out[i] = 1;
+  }
+  moved_ = gone_;
+  for (MovedSet& set : motion_.sets(sim, moved_little, out)) moved_.push_back(std::move(set));
+  left_ = left_out_;
   for (const MovedSet& set : moved_) {
-    if (set.part <= left_its_place) break;
+    if (set.part <= left_its_place) continue;
     left_.resize(sim.scene->blocks.size(), 0);
     for (const Id i : set.blocks) left_[i] = 1;
   }
@@ -80,8 +83,14 @@ bool Judge::look(Simulation& sim) {
     ++moving;
     found = false;
   }
-  constexpr std::size_t single = 20;  // one block of so many
-  sim.relaxation.balanced = single * moving <= counted;
+  if (!complete) {
+    const Balance balance = balance_of(sim);
+    sim.relaxation.balanced =
+        balance.resting > 0 && balance.mean_95 <= sim.relaxation.equilibrium_ratio;
+  } else {
+    constexpr std::size_t single = 20;  // one block of so many
+    sim.relaxation.balanced = single * moving <= counted;
+  }
   found_in_sequence_ = found ? found_in_sequence_ + 1 : 0;
   at_rest_in_sequence_ = rest ? at_rest_in_sequence_ + 1 : 0;
   if (found_in_sequence_ == looks_in_sequence) find_moved(sim);
@@ -94,7 +103,7 @@ std::string Judge::left_text(const Simulation& sim) const {
   std::size_t blocks = 0;
   double area = 0.0;
   for (const MovedSet& set : moved_) {
-    if (set.part <= left_its_place) break;
+    if (set.part <= left_its_place) continue;
     sets.push_back(&set);
     blocks += set.blocks.size();
     area += set.area;
@@ -137,7 +146,7 @@ Furthest fastest_of(const Simulation& sim, const std::vector<Id>& blocks) {
 
 bool Judge::fits(const Simulation& sim) const {
   const std::size_t nb = sim.scene->blocks.size();
-  for (const auto* marks : {&left_out_, &left_, &gone_}) {
+  for (const auto* marks : {&left_out_, &left_}) {
     if (!marks->empty() && marks->size() != nb) return false;
   }
   const auto of_model = [nb](const MovedSet& set) {
@@ -145,7 +154,8 @@ bool Judge::fits(const Simulation& sim) const {
            std::is_sorted(set.blocks.begin(), set.blocks.end());
   };
   return rests_.size() == nb && motion_.fits(nb) && slowing_.fits(nb) &&
-         std::all_of(moved_.begin(), moved_.end(), of_model);
+         std::all_of(moved_.begin(), moved_.end(), of_model) &&
+         std::all_of(gone_.begin(), gone_.end(), of_model);
 }
 
 bool Judge::all_left(const Simulation& sim) const {

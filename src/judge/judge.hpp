@@ -80,7 +80,7 @@ class Judge {
   void find_moved(Simulation& sim);
 
   std::vector<std::uint8_t> left_out_, left_, rests_;
-  std::vector<std::uint8_t> gone_;  ///< [nb] 1: left on the way, follow_supports(); empty: none
+  std::vector<MovedSet> gone_;  ///< left on the way, follow_supports()
   RelativeMotion motion_;
   SlowingDown slowing_;
   std::vector<MovedSet> moved_;
@@ -89,26 +89,31 @@ class Judge {
 };
 
 template <class Archive>
+void list_sets(Archive& a, const std::string& name, std::vector<MovedSet>& sets) {
+  std::size_t count = sets.size();
+  a(name + ".sets", count);
+  if constexpr (Archive::loads) sets.resize(count);
+  for (std::size_t q = 0; q < sets.size(); ++q) {
+    const std::string set = name + "." + std::to_string(q) + ".";
+    a(set + "blocks", sets[q].blocks);
+    a(set + "area", sets[q].area);
+    a(set + "distance", sets[q].distance);
+    a(set + "part", sets[q].part);
+  }
+}
+
+template <class Archive>
 void Judge::list(Archive& a, const std::string& of) {
   a(of + "judge.left_out", left_out_);
   a(of + "judge.left", left_);
-  a(of + "judge.gone", gone_);
   a(of + "judge.rests", rests_);
   a(of + "judge.was_complete", was_complete_);
   a(of + "judge.found", found_in_sequence_);
   a(of + "judge.at_rest", at_rest_in_sequence_);
   motion_.list(a, of);
   slowing_.list(a, of);
-  std::size_t sets = moved_.size();
-  a(of + "judge.sets", sets);
-  if constexpr (Archive::loads) moved_.resize(sets);
-  for (std::size_t q = 0; q < moved_.size(); ++q) {
-    const std::string set = of + "judge.set." + std::to_string(q) + ".";
-    a(set + "blocks", moved_[q].blocks);
-    a(set + "area", moved_[q].area);
-    a(set + "distance", moved_[q].distance);
-    a(set + "part", moved_[q].part);
-  }
+  list_sets(a, of + "judge.moved", moved_);
+  list_sets(a, of + "judge.gone", gone_);
 }
 
 }  // namespace edda

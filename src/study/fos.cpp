@@ -132,7 +132,7 @@ bool compare_with_rigid(const Model& model, const Fos& fos, const RigidLimit& fo
   RigidBracket rigid;
   rigid.most = limit.largest.upper;
   rigid.least = least_limit(limit);
-  rigid.slack = 0.01;  // joints and blocks deform before they fail
+  rigid.slack = 0.005;  // joints and blocks deform before they fail
   rigid.below_most = r.holds.value_or(0.0) <= (1.0 + rigid.slack) * rigid.most;
   if (!r.factor && rigid.below_most) return false;  // the highest factor tried is no limit
   const double near = fos.tolerance + 0.02;

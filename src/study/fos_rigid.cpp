@@ -27,7 +27,7 @@ Criterion criterion_at(double factor, const Criterion& usual, const RigidLimit& 
                               !(limited && factor > least_limit(*rigid)) &&
                               !(rigid->bolts_as_now && factor > *rigid->bolts_as_now);
   Criterion c = usual;
-  if (!in_equilibrium) c.allowed = std::min(c.allowed, moved_little);
+  if (!in_equilibrium && !usual.displacement) c.allowed = std::min(c.allowed, moved_little);
   return c;
 }
 

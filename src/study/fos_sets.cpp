@@ -18,7 +18,9 @@ FosResult found_between(const Model& model, const Fos& fos, Vec2 bracket, FosSta
                         const FosOptions& options) {
   FosResult r;
   start.seen.clear();
-  FosSearch search(model, fos, {bracket.x, bracket.y, fos.tolerance}, start, options, r);
+  FosOptions within = options;  // its lines are not those of the trials that count
+  if (options.say) within.say = [&](const std::string& line) { options.say("  " + line); };
+  FosSearch search(model, fos, {bracket.x, bracket.y, fos.tolerance}, start, within, r);
   const FosBracket end = search.go();
   search.finish();
   if (end.next()) return {};  // stopped, or beyond all that was tried
@@ -75,7 +77,7 @@ void find_later_sets(const Model& model, const Fos& fos, FosStart start, const F
     start.rigid->without_dilation.reset();
     start.rigid->residual.reset();
     if (options.say)
-      options.say(fmt::format("without {}: what fails next", counted(last.blocks.size(), "block")));
+      options.say(fmt::format("  without {}: what fails next", counted(last.blocks.size(), "block")));
     const double limit = next->value.lower;
     const FosResult later = found_between(model, fos, {0.98 * limit, 1.01 * limit}, start, options);
     const std::optional<FailedSet> set = first_set(later, b);
@@ -92,7 +94,7 @@ void find_wide(const Model& model, const Fos& fos, FosStart start, const FosOpti
       trial->part > usual || trial->end != TrialEnd::fails)
     return;
   start.wide = true;
-  if (options.say) options.say("where blocks may move by a tenth of their size");
+  if (options.say) options.say("  where blocks may move by a tenth of their size");
   const FosResult wide = found_between(model, fos, {*r.fails, 2.0 * *r.fails}, start, options);
   if (!wide.holds || !wide.fails || *wide.holds <= (1.0 + 2.0 * fos.tolerance) * *r.fails) return;
   r.holds_wide = wide.holds;

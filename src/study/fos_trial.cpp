@@ -64,6 +64,7 @@ class Run {
     trial_.unbalanced = balance_of(sim_).mean;
     trial_.steps = sim_.motion.state.steps - steps_;
     trial_.end = how;
+    if (how == TrialEnd::fails && early_) sim_ = std::move(*early_);
     trial_.reason = std::move(reason);
   }
 
@@ -88,6 +89,10 @@ class Run {
         return end(TrialEnd::fails, "diverged: " + failure->message);
       }
       end_by(holding_.look(sim_));
+      if (!over_ && !early_ && holding_.part() > moved_little) {
+        update_face_rows(sim_);
+        early_ = sim_;
+      }
     }
   }
 
@@ -187,6 +192,8 @@ class Run {
   const std::function<bool()>& stops_;
   const Judge whole_;  ///< of the whole trial
   Holding holding_;    ///< of this part of it
+  /// When blocks had moved by little: joints then lie as they did, so that it shows the mechanism.
+  std::optional<Simulation> early_;
   Trial trial_;
   const double start_;  ///< s
   const std::uint64_t steps_;

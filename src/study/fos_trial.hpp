@@ -59,7 +59,8 @@ struct Trial {
 };
 
 /// Runs `sim`, in equilibrium, to the end of a trial under `to`. Displacements count from the start
-/// of the trial. `stops` is called before each step; true ends the trial.
+/// of the trial; a trial that fails is left as it was when a set had moved by moved_little. `stops`
+/// is called before each step; true ends the trial.
 Trial run_trial(Simulation& sim, const TrialPlan& plan, const Loading& to,
                 const std::function<bool()>& stops);
 

@@ -144,7 +144,7 @@ class Words(Program):
         stops = self.edda("run", self.write("stop.toml", model % 'otherwise = "stop"\n'))
         failed = self.edda("run", self.write("fails.toml", model.replace('until = "equilibrium"', 'until = "equilibrium"\nratio = 1e-30\nduration = 0.01') % ""))
         self.assertEqual(stops.returncode, failed.returncode)
-        self.assertRegex(stops.stdout, r"collapsed: the model is in equilibrium after [\d.e-]+ s, except for 1 block that falls freely: .*\"stop\" of stage 1")
+        self.assertRegex(stops.stdout, r"collapsed: the model is in equilibrium after [\d.e-]+ s, except for 1 block \(0\.125 m2\) that has come loose: .*\"stop\" of stage 1")
 
     def test_folders_that_cannot_be_made_are_refused(self):
         model = self.write("block.toml", BLOCK % 1e10)

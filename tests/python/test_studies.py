@@ -109,7 +109,7 @@ def test_a_study_finds_the_probability_of_failure():
     angles = rng.normal(28.5, 4.0, 20)
     angles = angles[abs(angles - 30) > 0.1]
     ends = [edda.run({**PLANE, **STAGE}, None, {"joints.plane.friction_angle": a}).status for a in angles]
-    assert [end == "collapsed" for end in ends] == list(angles < 30)
+    assert [end != "equilibrium" for end in ends] == list(angles < 30)
     factor = edda.fos(PLANE).factor
     critical = math.degrees(math.atan(math.tan(math.radians(33)) / factor))
     assert critical == pytest.approx(30, abs=0.4)

@@ -100,8 +100,11 @@ TEST(Fos, ReportsTheTrialsThatCount) {
   for (const int threads : {1, 3}) {
     const Told t = told(model_of(ramp(rough, coarse)), threads);
     const std::vector<Trial>& trials = t.result.trials;
-    ASSERT_EQ(t.lines.size(), trials.size()) << threads;
-    for (std::size_t k = 0; k < t.lines.size(); ++k)
+    // What is tried besides, of blocks that may move further, is set back.
+    ASSERT_GE(t.lines.size(), trials.size()) << threads;
+    for (std::size_t k = trials.size(); k < t.lines.size(); ++k)
+      EXPECT_TRUE(t.lines[k].starts_with("  ")) << t.lines[k];
+    for (std::size_t k = 0; k < trials.size(); ++k)
       EXPECT_TRUE(t.lines[k].starts_with(fmt::format("factor {:.6g} ", trials[k].factor)))
           << t.lines[k];
   }
