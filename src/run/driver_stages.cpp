@@ -21,7 +21,8 @@ void Driver::begin_stage(std::size_t index) {
   seek_equilibrium(sim_, stage());
   ramp_ = {};
   ramp_.since = stage_steps_;
-  times_.end_at(stage_start_ + stage().longest());
+  stage_longest_ = stage().longest();
+  times_.end_at(stage_start_ + stage_longest_);
   if (sim_.scene->model.stages.empty()) return;
   if (const auto fault = enter_stage(sim_, plans_[index], index == 0)) {
     end(Status::failed, stage_label(sim_.scene->model, stage_) + ": " + fault->problem);

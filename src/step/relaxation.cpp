@@ -313,7 +313,8 @@ void begin_gradually(Simulation& sim, const std::vector<double>& strength_factor
     if (!weight && least == 0.0) return set_strength_factors(sim, strength_factors);
     hold_joints(sim);
     FaceSet& faces = faces_to_change(sim);
-    relaxation.holds_together = weight && !faces.gluing;
+    // Supports that are displaced meanwhile would pull apart what holds together.
+    relaxation.holds_together = weight && least == 0.0 && faces.size() > 0 && !faces.gluing;
     if (relaxation.holds_together) {
       glue_faces(faces, false);
       reevaluate_faces(sim);

@@ -12,7 +12,8 @@ namespace {
 void add_criterion(Json& j, const FosResult& r) {
   const Criterion& c = r.criterion;
   j.key("criterion").open_object();
-  j.pair("fails_displacement", c.displacement).pair("fails_velocity", c.velocity);
+  j.pair("fails_displacement", c.displacement.value_or(c.allowed * r.size));
+  j.pair("fails_velocity", c.velocity);
   j.pair("fails_part", std::isfinite(c.allowed) ? std::optional(c.allowed) : std::nullopt);
   j.pair("little_part", moved_little).pair("rest_part", rest_part);
   j.pair("block_size", r.size).pair("acceleration", r.acceleration);

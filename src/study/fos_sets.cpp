@@ -77,7 +77,8 @@ void find_later_sets(const Model& model, const Fos& fos, FosStart start, const F
     start.rigid->without_dilation.reset();
     start.rigid->residual.reset();
     if (options.say)
-      options.say(fmt::format("  without {}: what fails next", counted(last.blocks.size(), "block")));
+      options.say(
+          fmt::format("  without {}: what fails next", counted(last.blocks.size(), "block")));
     const double limit = next->value.lower;
     const FosResult later = found_between(model, fos, {0.98 * limit, 1.01 * limit}, start, options);
     const std::optional<FailedSet> set = first_set(later, b);

@@ -22,6 +22,7 @@ Vec2 slip_direction(const Simulation& sim, const Pose& pose, std::size_t k) {
 struct EndMoved {
   Vec2 place;
   double slip, opening;
+  double apart;  ///< m, of the two points at the start
 };
 EndMoved end_moved(const Simulation& before, const Simulation& after, std::size_t k, double xi,
                    double eta) {
@@ -33,7 +34,7 @@ EndMoved end_moved(const Simulation& before, const Simulation& after, std::size_
   const Vec2 was = from_point_of_e(p, xi, eta), is = from_point_of_e(q, xi, eta);
   return {(1.0 - xi) * p.p1 + xi * p.p2 + before.scene->blocks.origin,
           std::abs(dot(is, t_is) - dot(was, t_was)),
-          dot(is, outward_normal(t_is)) - dot(was, outward_normal(t_was))};
+          dot(is, outward_normal(t_is)) - dot(was, outward_normal(t_was)), norm(was)};
 }
 
 }  // namespace
@@ -56,6 +57,9 @@ void collect_joints(SeenJoints& joints, const Simulation& before, const Simulati
     const double turning = std::abs(rotation[i] - rotation[j]) * length;
     const EndMoved ends[2] = {end_moved(before, after, k, f.now.xi_a[k], f.now.eta_a[k]),
                               end_moved(before, after, k, f.now.xi_b[k], f.now.eta_b[k])};
+    // Edges that have passed each other have no two points that touch.
+    constexpr double touching = 1e-3;
+    if (std::max(ends[0].apart, ends[1].apart) > 2.0 * least + touching * length) continue;
     const double slip = std::max(ends[0].slip, ends[1].slip);
     const double opening = std::max(ends[0].opening, ends[1].opening);
     if (std::max({slip, opening, turning}) < least) continue;
