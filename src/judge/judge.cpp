@@ -83,7 +83,7 @@ bool Judge::look(Simulation& sim) {
     ++moving;
     found = false;
   }
-  if (!complete) {
+  if (!complete && !sim.relaxation.holds_together) {
     const Balance balance = balance_of(sim);
     sim.relaxation.balanced =
         balance.resting > 0 && balance.mean_95 <= sim.relaxation.equilibrium_ratio;

@@ -129,10 +129,26 @@ void SlowingDown::look(const Simulation& sim) {
   begin_window(sim);
 }
 
+namespace {
+
+/// Half of the sum of the normal forces on each block, [nb] N.
+std::vector<double> pressed_blocks(const Simulation& sim) {
+  const FaceSet& f = sim.motion.contacts;
+  const std::vector<double> normal = normal_forces_now(sim);
+  std::vector<double> pressed(sim.scene->blocks.size(), 0.0);
+  for (std::size_t k = 0; k < normal.size(); ++k) {
+    pressed[block_of_edge(sim.scene->blocks, f, k)] += 0.5 * std::max(normal[k], 0.0);
+    pressed[block_of_facing(sim.scene->blocks, f, k)] += 0.5 * std::max(normal[k], 0.0);
+  }
+  return pressed;
+}
+
+}  // namespace
+
 std::vector<std::uint8_t> blocks_at_rest(const Simulation& sim, const SlowingDown* slowing) {
   const BlockSet& b = sim.scene->blocks;
   const State& s = sim.motion.state;
-  const std::vector<double> rounding = rounding_of_forces(sim);
+  const std::vector<double> rounding = rounding_of_forces(sim), pressed = pressed_blocks(sim);
   const LoadsNow acting = loads_at(sim.scene->model, sim.attached.loads, s.time);
   std::vector<std::uint8_t> rest(b.size(), 1);
   for (std::size_t i = 0; i < b.size(); ++i) {
@@ -140,7 +156,7 @@ std::vector<std::uint8_t> blocks_at_rest(const Simulation& sim, const SlowingDow
     const double most = rest_part * size_of(sim, i);
     const double force = force_on(sim, i, rounding[i]);
     const double own = acceleration_on(sim, acting, i);
-    const double weight = b.mass[i] * (own > 0.0 ? own : usual_acceleration);
+    const double weight = std::max(pressed[i], b.mass[i] * (own > 0.0 ? own : usual_acceleration));
     const bool stiff = sim.stepper->remaining_travel(sim, i, force) <= most;
     if (stiff &&
         (slowing == nullptr || (slowing->to_come(i) <= most && force <= balanced_part * weight)))

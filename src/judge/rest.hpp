@@ -10,7 +10,7 @@
 namespace edda {
 
 /// At rest a block would move no further than this part of its size, and the forces on it balance
-/// to this part of its weight.
+/// to this part of its weight, or of the mean force that presses it where that is larger.
 inline constexpr double rest_part = 1e-4, balanced_part = 2e-5;
 
 /// Time within which a block at rest would move no further, s: T = 5 sqrt(L/a), in which it would
