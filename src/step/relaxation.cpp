@@ -311,8 +311,8 @@ void begin_gradually(Simulation& sim, const std::vector<double>& strength_factor
     const double least = time_of_displacements(sim);
     const bool weight = !sim.scene->model.initial_stress;
     if (!weight && least == 0.0) return set_strength_factors(sim, strength_factors);
-    hold_joints(sim);
     FaceSet& faces = faces_to_change(sim);
+    if (faces.size() > 0) hold_joints(sim);
     // Supports that are displaced meanwhile would pull apart what holds together.
     relaxation.holds_together = weight && least == 0.0 && faces.size() > 0 && !faces.gluing;
     if (relaxation.holds_together) {
