@@ -1,5 +1,5 @@
 // The judge of rest and failure: what stands, what moves, what has left its place. Stages, ramps,
-// trials of a factor and the calm after a ground motion all ask it (docs/verdicts.md).
+// trials of a factor and the calm after a ground motion all ask it (theory, section 11.3).
 //
 //  - A block is judged by its own size L and time T (rest.hpp), and by how it has moved as seen
 //  from

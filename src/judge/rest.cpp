@@ -7,6 +7,7 @@
 
 #include "base/gravity.hpp"
 #include "contacts/face_reading.hpp"
+#include "observe/balance.hpp"
 #include "step/faces_now.hpp"
 
 namespace edda {
@@ -27,8 +28,7 @@ double size_of(const Simulation& sim, std::size_t i) {
 
 /// Resultant of the forces on block i in the last step, less their rounding, N.
 double force_on(const Simulation& sim, std::size_t i, double rounding) {
-  const NodalForces& f = sim.motion.forces;
-  return std::max(nodes_per_block * norm(centroid(f.x, f.y, i)) - rounding, 0.0);
+  return std::max(resultant_on(sim, i) - rounding, 0.0);
 }
 
 }  // namespace

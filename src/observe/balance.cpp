@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "base/gravity.hpp"
 #include "observe/observe.hpp"
 #include "step/labels.hpp"
 #include "step/simulation.hpp"
@@ -21,11 +22,11 @@ namespace {
 
 /// Whether block i moves or is about to: by more than rounding, whatever may act on it.
 bool is_moved(const Simulation& sim, std::size_t i) {
-  constexpr double usual_gravity = 9.81, part = 1e-9;
+  constexpr double part = 1e-9;
   const BlockSet& b = sim.scene->blocks;
   const double speed = norm(centroid(sim.motion.state.vx, sim.motion.state.vy, i));
-  return resultant_on(sim, i) > part * usual_gravity * b.mass[i] ||
-         speed > part * std::sqrt(usual_gravity * std::sqrt(b.area[i]));
+  return resultant_on(sim, i) > part * usual_acceleration * b.mass[i] ||
+         speed > part * std::sqrt(usual_acceleration * std::sqrt(b.area[i]));
 }
 
 /// Whether block i, which touches nothing, has fallen by a hundredth of its size. Before that it

@@ -178,10 +178,10 @@ void update_estimate(Simulation& sim, const LoadsNow& at_work) {
   estimate.since = state.steps;
   if (first) return;
   update_frequencies_of_blocks(sim, sum, touch);
-  // Once all else is in balance, the blocks that still move determine the frequency.
   for (std::size_t i = 0; i < nb && !none_stays; ++i) {
     if (stays[i] == 0) sum.stiffness[i] = sum.inertia[i] = 0.0;
   }
+  // Once all else is in balance, the blocks that still move determine the frequency.
   const double most_of_one =
       sim.relaxation.balanced ? std::numeric_limits<double>::infinity() : largest_part(sum.inertia);
   const std::optional<double> now = square_of_frequency(sum, most_of_one);
