@@ -43,6 +43,7 @@ Trouble write_results(const Model& model, const FosResult& r, const std::string&
 
 void print_end(const FosResult& r, const std::string& folder) {
   fmt::print("{}\n", r.message);
+  if (!r.proof.empty()) fmt::print("  {}\n", r.proof);
   if (r.mechanism) fmt::print("  mechanism at {:.6g}: {}\n", *r.fails, r.mechanism->text);
   const std::string lost = r.mechanism ? lost_cohesion_text(*r.mechanism) : std::string();
   if (!lost.empty()) fmt::print("  {}\n", lost);

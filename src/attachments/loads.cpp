@@ -190,7 +190,11 @@ Vec2 load_on(const BlockSet& b, const LoadsNow& now, const Pose& pose, std::size
   if (now.loads == nullptr) return {};
   NodeVectors f{};
   add_loads(f, b, now, pose.x, pose.y, i);
-  return resultant(f);
+  constexpr double rounding = 1e-12;
+  double sum = 0.0;
+  for (const Vec2 of_node : f) sum += norm(of_node);
+  const Vec2 all = resultant(f);
+  return norm(all) > rounding * sum ? all : Vec2{};  // loads that balance leave their rounding
 }
 
 }  // namespace edda

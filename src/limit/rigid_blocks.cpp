@@ -64,7 +64,7 @@ bool lies_inside(Vec2 place, Vec2 a, Vec2 b, double margin) {
   return s > margin && s < norm(b - a) - margin;
 }
 
-void add_joint(RigidBlocks& rigid, const Simulation& sim, std::size_t k) {
+void add_joint(RigidBlocks& rigid, const Simulation& sim, std::size_t k, double gap) {
   const BlockSet& b = sim.scene->blocks;
   const FaceSet& faces = sim.motion.contacts;
   const Id i = block_of_edge(b, faces, k), j = block_of_facing(b, faces, k);
@@ -72,8 +72,9 @@ void add_joint(RigidBlocks& rigid, const Simulation& sim, std::size_t k) {
   const FacePoints at = face_points(faces, sim.motion.pose.x, sim.motion.pose.y, k);
   const Vec2 t = frame_of(at, faces.inverse_e[k], faces.inverse_f[k]);
   const Opposed o = common_part(at, t);
-  const double close = rigid_gap * smaller_size(faces, b, k);
-  const bool touches_from = std::abs(o.gap_from) <= close, touches_to = std::abs(o.gap_to) <= close;
+  const double size = smaller_size(faces, b, k), close = rigid_gap * size;
+  const bool touches_from = std::abs(o.gap_from) <= gap * size,
+             touches_to = std::abs(o.gap_to) <= gap * size;
   if (o.to - o.from <= close || (!touches_from && !touches_to)) return;
   RigidJoint joint;
   joint.block_a = i;
@@ -278,11 +279,12 @@ void add_bolts(RigidBlocks& rigid, const Simulation& sim, BoltForces forces) {
   }
 }
 
+constexpr double at_last = 1e30;  // s
+
 /// All loads with the last values of their histories, nothing of them gradual any more.
 LoadsNow last_loads(const Simulation& sim) {
   Loads loads = sim.attached.loads;
   loads.gradual = {};
-  constexpr double at_last = 1e30;  // s
   LoadsNow now = loads_at(sim.scene->model, loads, at_last);
   if (now.loads != nullptr) now.loads = &sim.attached.loads;  // the places are the same
   return now;
@@ -295,7 +297,7 @@ double unit_weight(const Simulation& sim, std::size_t water) {
 
 }  // namespace
 
-RigidBlocks rigid_blocks(const Simulation& sim, BoltForces bolts) {
+RigidBlocks rigid_blocks(const Simulation& sim, BoltForces bolts, double gap) {
   const BlockSet& b = sim.scene->blocks;
   RigidBlocks rigid;
   double sizes = 0.0, masses = 0.0, count = 0.0;
@@ -309,7 +311,7 @@ RigidBlocks rigid_blocks(const Simulation& sim, BoltForces bolts) {
     rigid.size = sizes / count;
     rigid.force = masses / count * acceleration_of(sim);
   }
-  for (std::size_t k = 0; k < sim.motion.contacts.size(); ++k) add_joint(rigid, sim, k);
+  for (std::size_t k = 0; k < sim.motion.contacts.size(); ++k) add_joint(rigid, sim, k, gap);
   leave_out_twins(rigid.joints, rigid_gap * rigid.size);
   add_bolts(rigid, sim, bolts);
   make_bodies(rigid, sim, supports_of(sim));
@@ -351,7 +353,7 @@ RigidForces weights_under(const RigidBlocks& rigid, const Simulation& sim, Vec2 
 }
 
 Vec2 last_gravity(const Simulation& sim) {
-  return gravity_at(sim.scene->model.gravity, sim.attached.loads.slow, sim.motion.state.time, {});
+  return gravity_at(sim.scene->model.gravity, sim.attached.loads.slow, at_last, {});
 }
 
 LoadFactors last_factors(const Simulation& sim) {

@@ -86,7 +86,9 @@ inline constexpr double rigid_gap = 1e-3;
 /// moved and stretched them, or what they carry now. Grouted bolts need no such way.
 enum class BoltForces { to_capacity, as_now };
 
-RigidBlocks rigid_blocks(const Simulation& sim, BoltForces bolts = BoltForces::to_capacity);
+/// gap: as rigid_gap, up to which faces count as closed.
+RigidBlocks rigid_blocks(const Simulation& sim, BoltForces bolts = BoltForces::to_capacity,
+                         double gap = rigid_gap);
 
 /// The same with these blocks fixed where they are.
 RigidBlocks carrying(const RigidBlocks& rigid, const std::vector<Id>& blocks);

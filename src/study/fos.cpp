@@ -77,8 +77,8 @@ void conclude(const FosBracket& bracket, const Fos& fos, bool stopped, const Rig
     }
   } else {
     r.factor = 0.5 * (*r.holds + *r.fails);
-    r.message = fmt::format("factor of safety {:.4g} (holds at {:.6g}, fails at {:.6g})", *r.factor,
-                            *r.holds, *r.fails);
+    r.message = fmt::format("{} {:.4g} (holds at {:.6g}, fails at {:.6g})", quantity_varied(fos),
+                            *r.factor, *r.holds, *r.fails);
   }
 }
 
@@ -114,10 +114,10 @@ void take_rigid_limit(const Fos& fos, LimitResult& limit, bool lost, FosResult& 
   r.holds = limit.largest.lower;
   r.fails = limit.largest.upper;
   r.factor = 0.5 * (*r.holds + *r.fails);
-  r.message =
-      fmt::format("{} {:.4g}, beyond which rigid blocks have no equilibrium",
-                  fos.varied == Varied::strength ? "factor of safety" : "factor", *r.factor);
+  r.message = fmt::format("{} {:.4g}, beyond which rigid blocks have no equilibrium",
+                          quantity_varied(fos), *r.factor);
   r.rigid->trials_hold = held;
+  r.proof = "beyond it rigid blocks have no equilibrium";
   if (!limit.mechanism) return;
   r.mechanism = std::move(limit.mechanism);
   r.failed = std::move(limit.moved);
@@ -179,6 +179,33 @@ void warn_of_trials(FosResult& r) {
   }
 }
 
+/// What shows that the model holds at one end of the bracket and fails at the other.
+std::string proof_of(const FosResult& r) {
+  std::string text;
+  for (const Trial& t : r.trials) {
+    if (t.factor != r.holds || t.end != TrialEnd::holds) continue;
+    text =
+        fmt::format("at {:.6g} {}", t.factor,
+                    r.criterion.velocity ? t.reason
+                                         : "all blocks are at rest, and the forces found "
+                                           "balance the loads within the strength of the joints");
+    break;
+  }
+  for (const Trial& t : r.trials) {
+    if (t.factor != r.fails || t.end == TrialEnd::holds) continue;
+    text += text.empty() ? "" : "; ";
+    text += fmt::format("at {:.6g} ", t.factor);
+    text += t.proof
+                ? "rigid blocks have no equilibrium, even if every joint that could close is closed"
+            : t.end == TrialEnd::fails && t.part > 0.0
+                ? fmt::format("{} moved by {:.2g} of {} size", counted(t.failed.size(), "block"),
+                              t.part, t.failed.size() == 1 ? "its" : "their")
+                : t.reason;
+    break;
+  }
+  return text;
+}
+
 }  // namespace
 
 Result<FosResult> find_factor(const Model& model, const FosOptions& options) {
@@ -206,12 +233,9 @@ Result<FosResult> find_factor(const Model& model, const FosOptions& options) {
     bracket.below.reset();  // where the search was stopped before it, the factor is known
     const bool stopped = options.stop != nullptr && *options.stop && bracket.next();
     conclude(bracket, fos, stopped, rigid, r);
-    const bool sound = r.failed && std::isfinite(r.failed->control.last_displacement) &&
-                       r.failed->control.last_displacement < 1e100;
-    if (sound) {
-      r.mechanism = mechanism_of(at_start(start.sim, *r.failed), *r.failed);
-      find_lost_cohesion(*r.mechanism, search.stable());
-    }
+    r.proof = proof_of(r);
+    r.mechanism = first_mechanism(start, r);
+    if (r.mechanism) find_lost_cohesion(*r.mechanism, search.stable());
   }
   add_sets(model, fos, start, options, r);
   warn_of_trials(r);

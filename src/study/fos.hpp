@@ -59,6 +59,7 @@ struct FosResult {
   std::string message;
   std::optional<double> factor;        ///< mid-point of the bracket
   std::optional<double> holds, fails;  ///< ends of the bracket
+  std::string proof;                   ///< of both ends, one sentence
   Criterion criterion;
   double size = 0.0;          ///< m, mean of the square roots of the areas of the free blocks
   double acceleration = 0.0;  ///< m/s2, of gravity, or of the loads without it

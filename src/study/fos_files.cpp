@@ -59,6 +59,7 @@ std::string fos_summary(const Model& model, const FosResult& r, int threads) {
   j.pair("factor_of_safety", r.factor);
   j.pair("holds", r.holds);
   j.pair("fails", r.fails);
+  j.pair("proof", r.proof);
   j.pair("vary", fos.vary).pair("stage", fos.stage).pair("tolerance", fos.tolerance);
   j.key("exclude").open_list();
   for (const std::string& name : fos.exclude) j.value(name);

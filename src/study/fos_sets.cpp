@@ -1,5 +1,6 @@
 #include "study/fos_sets.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/text.hpp"
@@ -14,19 +15,19 @@ double area_of(const BlockSet& b, const std::vector<Id>& blocks) {
 }
 
 /// A search from `start` in this bracket, of which only the result is wanted.
-FosResult found_between(const Model& model, const Fos& fos, Vec2 bracket, FosStart& start,
-                        const FosOptions& options) {
+FosResult found_between(const Model& model, const Fos& fos, const FosBracket& bracket,
+                        FosStart& start, const FosOptions& options) {
   FosResult r;
   start.seen.clear();
   FosOptions within = options;  // its lines are not those of the trials that count
   if (options.say) within.say = [&](const std::string& line) { options.say("  " + line); };
-  FosSearch search(model, fos, {bracket.x, bracket.y, fos.tolerance}, start, within, r);
+  FosSearch search(model, fos, bracket, start, within, r);
   const FosBracket end = search.go();
   search.finish();
   if (end.next()) return {};  // stopped, or beyond all that was tried
   if (end.holds) r.holds = end.low;
   if (end.fails) r.fails = end.high;
-  if (r.failed) r.mechanism = mechanism_of(at_start(start.sim, *r.failed), *r.failed);
+  if (r.failed) r.mechanism = first_mechanism(start, r);
   return r;
 }
 
@@ -49,11 +50,22 @@ Simulation at_start(const Simulation& rest, const Simulation& later) {
   return start;
 }
 
+std::optional<Mechanism> first_mechanism(const FosStart& start, const FosResult& r) {
+  const bool sound = r.failed && std::isfinite(r.failed->control.last_displacement) &&
+                     r.failed->control.last_displacement < 1e100;
+  if (!sound) return {};
+  const Trial* const trial = r.fails ? trial_at(r.trials, *r.fails) : nullptr;
+  if (trial != nullptr && trial->proof) return trial->proof;
+  return mechanism_of(at_start(start.sim, *r.failed), *r.failed);
+}
+
 std::optional<FailedSet> first_set(const FosResult& r, const BlockSet& b) {
   const Trial* const trial = r.fails ? trial_at(r.trials, *r.fails) : nullptr;
-  if (trial == nullptr || trial->failed.empty()) return {};
-  return FailedSet{r.holds.value_or(0.0), *r.fails, trial->failed, area_of(b, trial->failed),
-                   r.mechanism ? r.mechanism->text : std::string()};
+  if (trial == nullptr || trial->failed.empty() || !r.mechanism) return {};
+  FailedSet set{r.holds.value_or(0.0), *r.fails, {}, 0.0, r.mechanism->text};
+  for (const MovingBlock& m : r.mechanism->blocks) set.blocks.push_back(m.id);
+  set.area = area_of(b, set.blocks);
+  return set;
 }
 
 void find_later_sets(const Model& model, const Fos& fos, FosStart start, const FosOptions& options,
@@ -79,8 +91,9 @@ void find_later_sets(const Model& model, const Fos& fos, FosStart start, const F
     if (options.say)
       options.say(
           fmt::format("  without {}: what fails next", counted(last.blocks.size(), "block")));
-    const double limit = next->value.lower;
-    const FosResult later = found_between(model, fos, {0.98 * limit, 1.01 * limit}, start, options);
+    const double limit = next->value.lower, low = std::max(0.98 * limit, last.holds);
+    const FosResult later = found_between(
+        model, fos, {low, 1.01 * limit, fos.tolerance, low == last.holds}, start, options);
     const std::optional<FailedSet> set = first_set(later, b);
     if (!set) return;
     r.sets.push_back(*set);
@@ -96,7 +109,8 @@ void find_wide(const Model& model, const Fos& fos, FosStart start, const FosOpti
     return;
   start.wide = true;
   if (options.say) options.say("  where blocks may move by a tenth of their size");
-  const FosResult wide = found_between(model, fos, {*r.fails, 2.0 * *r.fails}, start, options);
+  const FosResult wide = found_between(
+      model, fos, {r.holds.value_or(0.0), *r.fails, fos.tolerance, true}, start, options);
   if (!wide.holds || !wide.fails || *wide.holds <= (1.0 + 2.0 * fos.tolerance) * *r.fails) return;
   r.holds_wide = wide.holds;
   r.fails_wide = wide.fails;

@@ -8,6 +8,9 @@ namespace edda {
 /// The equilibrium state `rest`, with the positions from which displacements of `later` count.
 Simulation at_start(const Simulation& rest, const Simulation& later);
 
+/// How it fails at the lowest factor that failed; none where that trial has diverged.
+std::optional<Mechanism> first_mechanism(const FosStart& start, const FosResult& r);
+
 /// The set that fails first at the end of a bracket.
 std::optional<FailedSet> first_set(const FosResult& r, const BlockSet& b);
 

@@ -3,12 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "observe/balance.hpp"
 #include "run/ramp.hpp"
 #include "step/changes.hpp"
 #include "step/step.hpp"
+#include "study/certificate.hpp"
 
 namespace edda {
 namespace {
@@ -57,7 +59,7 @@ class Run {
     const Furthest moved = whole_.furthest(sim_);
     trial_.displacement = moved.value;
     trial_.block = holding_.block() == no_id ? moved.block : holding_.block();
-    trial_.failed = holding_.failed();
+    if (trial_.failed.empty()) trial_.failed = holding_.failed();
     trial_.part = holding_.part();
     trial_.time = sim_.motion.state.time - start_;
     trial_.velocity = fastest_block(sim_).value;
@@ -89,6 +91,10 @@ class Run {
         return end(TrialEnd::fails, "diverged: " + failure->message);
       }
       end_by(holding_.look(sim_));
+      if (sim_.motion.state.steps == next_proof_) {
+        prove_failure();
+        next_proof_ += next_proof_ - steps_;
+      }
       if (!over_ && !early_ && holding_.part() > moved_little) {
         update_face_rows(sim_);
         early_ = sim_;
@@ -136,7 +142,30 @@ class Run {
     follow();
   }
 
+  /// Ends the trial where nothing can hold the blocks within the displacement that it allows.
+  void prove_failure() {
+    const Criterion& c = plan_.criterion;
+    if (over_ || c.displacement || !std::isfinite(c.allowed)) return;
+    std::optional<LimitMotion> found =
+        without_equilibrium(sim_, strength_, c.allowed, c.least_area);
+    if (!found) return;
+    early_.reset();
+    const auto& blocks = found->mechanism.blocks;
+    for (const MovingBlock& m : blocks) trial_.failed.push_back(m.id);
+    end(TrialEnd::fails, "rigid blocks have no equilibrium");
+    trial_.block = std::max_element(blocks.begin(), blocks.end(), [](const auto& m, const auto& n) {
+                     return m.largest < n.largest;
+                   })->id;
+    State& state = sim_.motion.state;
+    found->moved.motion.state.from_x = state.x;
+    found->moved.motion.state.from_y = state.y;
+    state = std::move(found->moved.motion.state);
+    sim_.motion.pose = std::move(found->moved.motion.pose);
+    trial_.proof = std::move(found->mechanism);
+  }
+
   void settle(const std::vector<double>& strength) {
+    strength_ = strength;
     scale_masses(sim_, StageMasses::scaled);
     change_damping(sim_, plan_.quiet, sim_.motion.dynamic);
     sim_.relaxation.seeks_equilibrium = true;
@@ -182,9 +211,13 @@ class Run {
   }
 
   void follow() {
+    prove_failure();
+    next_proof_ = sim_.motion.state.steps + first_proof;
     step_to(sim_.motion.state.time + most_steps * sim_.control.limit);
     if (!over_) end_by(holding_.at_end(sim_));
   }
+
+  static constexpr std::uint64_t first_proof = 4096;  ///< steps, twice as many each time
 
   Simulation& sim_;
   const TrialPlan& plan_;
@@ -195,7 +228,9 @@ class Run {
   /// When blocks had moved by little: joints then lie as they did, so that it shows the mechanism.
   std::optional<Simulation> early_;
   Trial trial_;
-  const double start_;  ///< s
+  std::vector<double> strength_;  ///< LawTable::divided_by at the end of the change
+  std::uint64_t next_proof_ = 0;  ///< step
+  const double start_;            ///< s
   const std::uint64_t steps_;
   bool over_ = false;
 };

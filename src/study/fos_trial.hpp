@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "judge/holding.hpp"
+#include "study/mechanism.hpp"
 
 namespace edda {
 
@@ -56,10 +57,13 @@ struct Trial {
   double velocity = 0.0;      ///< m/s, of the fastest block at the end
   double unbalanced = 0.0;    ///< mean resultant over mean contact force, as for stages
   std::uint64_t steps = 0;
+  /// The mechanism of rigid blocks that have no equilibrium, where that has ended the trial.
+  std::optional<Mechanism> proof;
 };
 
 /// Runs `sim`, in equilibrium, to the end of a trial under `to`. Displacements count from the start
-/// of the trial; a trial that fails is left as it was when a set had moved by moved_little. `stops`
+/// of the trial; a trial that fails is left as it was when a set had moved by moved_little, or,
+/// where rigid blocks have no equilibrium, moved by so much by their mechanism. `stops`
 /// is called before each step; true ends the trial.
 Trial run_trial(Simulation& sim, const TrialPlan& plan, const Loading& to,
                 const std::function<bool()>& stops);

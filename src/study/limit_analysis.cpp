@@ -110,30 +110,8 @@ std::vector<ContactRecord> thrust(const Simulation& sim, const RigidBlocks& rigi
   return all;
 }
 
-std::string quantity(const Fos& fos) {
-  const bool back = fos.target == backwards;
-  switch (fos.varied) {
-    case Varied::strength:
-      return "factor of safety";
-    case Varied::load:
-      return "multiplier of the load";
-    case Varied::water:
-      return "multiplier of the water pressure";
-    case Varied::boundary:
-      return "multiplier of the traction at the boundary";
-    case Varied::tilt:
-      return back ? "tilt to the left in degrees" : "tilt in degrees";
-    case Varied::kh:
-      return back ? "seismic coefficient kh to the left" : "seismic coefficient kh";
-    case Varied::kv:
-      return back ? "seismic coefficient kv downwards" : "seismic coefficient kv";
-    default:
-      return "multiplier of gravity";
-  }
-}
-
 std::string message_of(const Fos& fos, const LimitResult& r) {
-  const std::string what = quantity(fos);
+  const std::string what = quantity_varied(fos);
   if (r.interrupted && r.largest.status == LimitEnd::not_solved)
     return "interrupted before the limit was found";
   switch (r.largest.status) {
@@ -298,6 +276,30 @@ std::optional<Fault> nothing_to_fail(const Model& model, const RigidBlocks& rigi
 }
 
 }  // namespace
+
+std::string quantity_varied(const Fos& fos) {
+  const bool back = fos.target == backwards;
+  switch (fos.varied) {
+    case Varied::strength:
+      return "factor of safety";
+    case Varied::load:
+      return "multiplier of the load";
+    case Varied::water:
+      return "multiplier of the water pressure";
+    case Varied::boundary:
+      return "multiplier of what the boundary imposes";
+    case Varied::tilt:
+      return back ? "tilt to the left in degrees" : "tilt in degrees";
+    case Varied::kh:
+      return back ? "seismic coefficient kh to the left" : "seismic coefficient kh";
+    case Varied::kv:
+      return back ? "seismic coefficient kv downwards" : "seismic coefficient kv";
+    case Varied::shaking:
+      return "multiplier of the ground motion";
+    default:
+      return "multiplier of gravity";
+  }
+}
 
 const char* const initial_stress_left_out =
     "initial_stress is left out of the limit: rigid blocks take whatever forces suit their "

@@ -61,6 +61,9 @@ struct LimitOptions {
                                                   ///< one thread at a time; may be empty
 };
 
+/// "factor of safety", "seismic coefficient kh": what [fos] varies.
+std::string quantity_varied(const Fos& fos);
+
 /// Cuts, makes the changes of all stages up to fos.stage, and solves. Faults: those of
 /// prepare_run(), and of quantities that rigid limit analysis cannot vary (ground motion).
 Result<LimitResult> limit_analysis(const Model& model, const LimitOptions& options = {});
