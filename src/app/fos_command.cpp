@@ -77,7 +77,9 @@ int fos(const FosArguments& args) {
   options.threads = omp_get_max_threads();
   options.stop = &stop_asked;
   if (!args.quiet && !args.json)
-    options.say = [](const std::string& line) { say([&] { fmt::print(stderr, "{}\n", line); }); };
+    options.say = options.progress = [](const std::string& line) {
+      say([&] { fmt::print(stderr, "{}\n", line); });
+    };
   const Result<FosResult> found = find_factor(*model, options);
   if (!found.ok()) {
     print(found.faults(), args.json);

@@ -34,8 +34,7 @@ double force_on(const Simulation& sim, std::size_t i, double rounding) {
 }  // namespace
 
 double rest_time(double size, double acceleration) {
-  constexpr double times = 5.0;
-  return times * std::sqrt(size / (acceleration > 0.0 ? acceleration : usual_acceleration));
+  return rest_times * std::sqrt(size / (acceleration > 0.0 ? acceleration : usual_acceleration));
 }
 
 double longest_rest_time(const Simulation& sim) {

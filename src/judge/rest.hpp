@@ -15,6 +15,7 @@ inline constexpr double rest_part = 1e-4, balanced_part = 2e-5;
 
 /// Time within which a block at rest would move no further, s: T = 5 sqrt(L/a), in which it would
 /// fall by twelve times its size L (m) under the acceleration a (m/s2) that acts on it.
+inline constexpr double rest_times = 5.0;
 double rest_time(double size, double acceleration);
 
 /// That of the free block that has the longest, s.

@@ -140,6 +140,7 @@ struct Fos {
   double tolerance = 0.01;           ///< width of the bracket at the end, over its lower factor
   std::vector<std::string> exclude;  ///< joints that keep their strength
   double least_area = 0.0;           ///< m2: mechanisms that move less are left out
+  bool rigid_proof = true;           ///< trials end where rigid blocks have no equilibrium
   FosFails fails;
   Varied varied = Varied::strength;  ///< from `vary`
   Index target = none;  ///< row of loads, shakings, waters or boundaries; or `backwards`

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "contacts/find_faces.hpp"
+#include "judge/rest.hpp"
 #include "limit/joint_strength.hpp"
 
 namespace edda {
@@ -19,6 +20,16 @@ double second_largest(const Simulation& sim) {
     first = std::max(first, size);
   }
   return second > 0.0 ? second : first;
+}
+
+/// Joints may bear beyond their ends by what blocks overlap, as these deform.
+void lengthen(RigidBlocks& rigid, const Simulation& now) {
+  const FaceSet& f = now.motion.contacts;
+  for (RigidJoint& joint : rigid.joints) {
+    const double by = rigid_gap * smaller_size(f, now.scene->blocks, joint.face);
+    joint.ends[0] -= by * joint.t;
+    joint.ends[1] += by * joint.t;
+  }
 }
 
 /// The present state, its list of faces as wide as blocks may move.
@@ -66,10 +77,13 @@ std::optional<LimitMotion> without_equilibrium(const Simulation& sim,
                                                const std::vector<double>& divided_by,
                                                double allowed, double least_area) {
   constexpr std::size_t most_blocks = 5000;
+  // The part of gravity with which a block would move by rest_part of its size in rest_time().
+  constexpr double at_rest = 2.0 * rest_part / (rest_times * rest_times);
   const BlockSet& b = sim.scene->blocks;
   if (b.size() > most_blocks) return {};
   const Simulation now = with_faces_within(sim, allowed * second_largest(sim));
   RigidBlocks rigid = rigid_blocks(now, BoltForces::to_capacity, std::max(allowed, rigid_gap));
+  lengthen(rigid, now);
   if (depends_on_stress(rigid, now.motion.laws)) return {};
   std::vector<Id> stay;
   for (Id i = 0; i < sim.relaxation.loose.size(); ++i) {
@@ -84,7 +98,7 @@ std::optional<LimitMotion> without_equilibrium(const Simulation& sim,
     problem.dead =
         weights_under(rigid, now, last_gravity(now)) + loads_with(rigid, now, last_factors(now));
     const Shortfall found = shortfall(problem, std::vector<char>(rigid.joints.size(), 1));
-    if (!found.solved || found.holds() || !(found.excess > Shortfall::nothing)) return {};
+    if (!found.solved || found.holds() || !(found.excess > at_rest)) return {};
     std::optional<LimitMotion> motion = limit_motion(now, rigid, found.state);
     if (!motion || motion->mechanism.blocks.empty()) return {};
     if (area_of(b, motion->mechanism) >= least_area) return motion;

@@ -17,7 +17,9 @@ namespace edda {
 struct FosOptions {
   int threads = 1;  ///< trials that are made side by side, as far as memory has room for them; the
                     ///< result does not depend on it
-  std::function<void(const std::string&)> say{};  ///< progress messages, line by line; may be empty
+  std::function<void(const std::string&)> say{};  ///< messages, line by line; may be empty
+  /// How far the present trial is, every two seconds, from any thread; may be empty.
+  std::function<void(const std::string&)> progress{};
   const std::atomic<bool>* stop = nullptr;  ///< set from any thread: the search ends as interrupted
 };
 

@@ -4,12 +4,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <atomic>
 #include <map>
 #include <memory>
 #include <optional>
 #include <utility>
 #include <vector>
 
+#include "base/pace.hpp"
 #include "results/machine.hpp"
 #include "step/labels.hpp"
 #include "study/fos.hpp"
@@ -56,6 +58,7 @@ class FosSearch {
   /// Searches until the bracket is narrow enough, or until it is stopped. Returns the bracket.
   FosBracket go() {
     for (auto needed = bracket_.next(); needed && !stopped(); needed = bracket_.next()) {
+      needed_ = *needed;
       make(*needed);
       const auto found = made_.find(*needed);
       if (found == made_.end()) break;  // the search was stopped
@@ -161,11 +164,14 @@ class FosSearch {
     trying_.emplace(number, one);
   }
 
-  void run(TrialInProgress& one, const std::stop_token& stop) const {
+  void run(TrialInProgress& one, const std::stop_token& stop) {
     one.made.end = start_.sim;
     const Loading to = loading_of(fos_, model_, start_.given, one.factor);
-    one.made.trial = run_trial(*one.made.end, plan_at(one.factor, start_), to,
-                               [&] { return stopped() || stop.stop_requested(); });
+    one.made.trial = run_trial(*one.made.end, plan_at(one.factor, start_), to, [&] {
+      if (options_.progress && one.factor == needed_ && pace_.due())
+        options_.progress(so_far(one.factor, *one.made.end));
+      return stopped() || stop.stop_requested();
+    });
     one.made.trial.factor = one.factor;
   }
 
@@ -184,6 +190,8 @@ class FosSearch {
   const FosOptions& options_;
   FosResult& result_;
   FosBracket bracket_;
+  std::atomic<double> needed_ = 0.0;  ///< factor of the trial that the search waits for
+  Pace pace_;
   std::optional<Simulation> stable_;
   std::map<double, MadeTrial> made_;                                ///< by factor
   std::map<std::size_t, std::shared_ptr<TrialInProgress>> trying_;  ///< by number of the task

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/pace.hpp"
 #include "model/stage_names.hpp"
 #include "observe/balance.hpp"
 #include "study/fault_at.hpp"
@@ -78,6 +79,7 @@ TrialPlan plan_of(const Model& model, const Fos& fos) {
   if (fos.varied == Varied::shaking)
     plan.given_scale = model.shakings[static_cast<std::size_t>(fos.target)].scale;
   plan.criterion = criterion_of(fos);
+  plan.rigid_proof = fos.rigid_proof;
   plan.shaking = shaking_time(model, fos);
   plan.quiet = damping_for_equilibrium(own);
   plan.shaken = own;
@@ -180,6 +182,12 @@ Result<Staged> staged(const Model& model, const Fos& fos, const FosOptions& opti
   }
   RunOptions how;
   how.stop = options.stop;
+  if (options.progress) {
+    how.progress_every = 2.0;
+    how.progress = [&](const Progress& p) {
+      options.progress(fmt::format("before the trials: {:.3g} s in {} steps", p.time, p.steps));
+    };
+  }
   if (!fos.stage.empty()) how.last_stage = stage_called(model, fos.stage);
   std::optional<std::size_t> ended;
   how.stage_ended = [&](const StageReport& report) { ended = report.stage; };
@@ -264,6 +272,10 @@ TrialPlan plan_at(double factor, const FosStart& start) {
   return plan;
 }
 
+std::string so_far(double factor, const Simulation& sim) {
+  return fmt::format("factor {:.6g}: {} steps so far", factor, sim.motion.state.steps);
+}
+
 Result<FosStart> start_trials(const Model& model, const Fos& fos, const FosOptions& options) {
   if (auto fault = refused(model, fos)) return *fault;
   Result<FosStart> made = at_rest(model, fos, options);
@@ -277,7 +289,11 @@ Result<FosStart> start_trials(const Model& model, const Fos& fos, const FosOptio
   limit.stop = options.stop;
   limit.say = options.say;
   s.rigid = rigid_limit(model, fos, s.sim.scene->blocks.size(), limit);
-  Trial trial = run_trial(as_given, plan_at(given, s), s.given, [&] { return stopped(options); });
+  Pace pace;
+  Trial trial = run_trial(as_given, plan_at(given, s), s.given, [&] {
+    if (options.progress && pace.due()) options.progress(so_far(given, as_given));
+    return stopped(options);
+  });
   trial.factor = given;
   if (trial.end == TrialEnd::stopped) {
     s.status = FosStatus::interrupted;

@@ -27,6 +27,9 @@ struct FosStart {
 Loading loading_of(const Fos& fos, const Model& model, const Loading& given, double factor);
 TrialPlan plan_at(double factor, const FosStart& start);
 
+/// How far a trial is, as a line of progress.
+std::string so_far(double factor, const Simulation& sim);
+
 /// Brings the model to equilibrium. With stages: runs them to the end of the one named, and with a
 /// thousand times the strength of the joints where they do not reach equilibrium otherwise. Without
 /// stages: under gravity and loads, first with such joints, so that nothing slips or breaks on the

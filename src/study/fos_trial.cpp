@@ -145,7 +145,7 @@ class Run {
   /// Ends the trial where nothing can hold the blocks within the displacement that it allows.
   void prove_failure() {
     const Criterion& c = plan_.criterion;
-    if (over_ || c.displacement || !std::isfinite(c.allowed)) return;
+    if (over_ || !plan_.rigid_proof || c.displacement || !std::isfinite(c.allowed)) return;
     std::optional<LimitMotion> found =
         without_equilibrium(sim_, strength_, c.allowed, c.least_area);
     if (!found) return;

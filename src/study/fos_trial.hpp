@@ -27,9 +27,10 @@ struct TrialPlan {
   Index target = 0;          ///< row of loads, ground motions, waters or boundaries
   double given_scale = 1.0;  ///< of that ground motion, to which factors refer
   Criterion criterion;
-  double shaking = 0.0;  ///< s, duration of that ground motion; 0 without
-  Damping quiet;         ///< damping in the search for equilibrium
-  Damping shaken;        ///< damping during ground motion
+  double shaking = 0.0;     ///< s, duration of that ground motion; 0 without
+  bool rigid_proof = true;  ///< Fos::rigid_proof
+  Damping quiet;            ///< damping in the search for equilibrium
+  Damping shaken;           ///< damping during ground motion
 };
 
 enum class TrialEnd {

@@ -4,6 +4,8 @@
 
 #include <utility>
 
+#include "run/wall_clock.hpp"
+
 namespace edda {
 
 LimitWatch::LimitWatch(const std::atomic<bool>* stop, std::function<void(const std::string&)> say)
@@ -18,13 +20,9 @@ void LimitWatch::begin(const std::string& what) {
 }
 
 void LimitWatch::after_round() {
-  constexpr long every = 1500;  // ms
-  const std::chrono::duration<double, std::milli> since = std::chrono::steady_clock::now() - began_;
-  const long now = static_cast<long>(since.count());
-  long last = said_.load();
-  if (now - last < every || !said_.compare_exchange_strong(last, now)) return;
+  if (!pace_.due()) return;
   const std::lock_guard lock(mutex_);
-  say_(fmt::format("limit of rigid blocks: {}, after {:.0f} s", what_, 1e-3 * since.count()));
+  say_(fmt::format("limit of rigid blocks: {}, after {:.0f} s", what_, since(began_)));
 }
 
 }  // namespace edda

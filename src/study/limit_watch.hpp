@@ -7,11 +7,12 @@
 #include <mutex>
 #include <string>
 
+#include "base/pace.hpp"
 #include "limit/linear_program.hpp"
 
 namespace edda {
 
-/// Reports every second or two which limits are being computed, and passes on that it is to stop.
+/// Reports every two seconds which limits are being computed, and passes on that it is to stop.
 class LimitWatch {
  public:
   LimitWatch(const std::atomic<bool>* stop, std::function<void(const std::string&)> say);
@@ -31,7 +32,7 @@ class LimitWatch {
   std::mutex mutex_;
   std::string what_;
   const std::chrono::steady_clock::time_point began_ = std::chrono::steady_clock::now();
-  std::atomic<long> said_ = 0;  ///< ms after that
+  Pace pace_;
 };
 
 }  // namespace edda

@@ -59,7 +59,7 @@ void collect_joints(SeenJoints& joints, const Simulation& before, const Simulati
                               end_moved(before, after, k, f.now.xi_b[k], f.now.eta_b[k])};
     // Edges that have passed each other have no two points that touch.
     constexpr double touching = 1e-3;
-    if (std::max(ends[0].apart, ends[1].apart) > 2.0 * least + touching * length) continue;
+    if (std::min(ends[0].apart, ends[1].apart) > 2.0 * least + touching * length) continue;
     const double slip = std::max(ends[0].slip, ends[1].slip);
     const double opening = std::max(ends[0].opening, ends[1].opening);
     if (std::max({slip, opening, turning}) < least) continue;

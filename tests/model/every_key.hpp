@@ -309,6 +309,7 @@ bracket = [0.7, 2]
 tolerance = 0.02
 exclude = ["glue"]
 least_area = 0.25
+rigid_proof = false
 fails = { displacement = "1 cm", velocity = "2 mm/s" }
 [limit]
 crushing = true

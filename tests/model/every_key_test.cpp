@@ -358,6 +358,7 @@ void expect_every_solver_key(const Model& m) {
   EXPECT_EQ(m.fos->tolerance, 0.02);
   EXPECT_EQ(m.fos->exclude, std::vector<std::string>{"glue"});
   EXPECT_EQ(m.fos->least_area, 0.25);
+  EXPECT_FALSE(m.fos->rigid_proof);
   EXPECT_EQ(m.fos->fails.displacement, 0.01);
   EXPECT_EQ(m.fos->fails.velocity, 0.002);
   EXPECT_FALSE(m.output.stages);

@@ -268,6 +268,7 @@ constexpr std::array fos_keys{
     Key{"tolerance", at<&Fos::tolerance>, number(D::plain, above_to(0, 0.5)), initial, "The search ends when the bracket is no wider than this part of its lower factor."},
     Key{"exclude", at<&Fos::exclude>, name_list, initial, "Joints that keep their strength."},
     Key{"least_area", at<&Fos::least_area>, number(D::area, from(0)), initial, "Mechanisms that move blocks of a smaller area in all are left out, and reported."},
+    Key{"rigid_proof", at<&Fos::rigid_proof>, flag, initial, "Whether a trial ends where rigid blocks have no equilibrium in their present places; without, it is followed until blocks have moved."},
     Key{"fails", at<&Fos::fails>, table, otherwise("by the size of the blocks and gravity"), "When a trial counts as failed."},
 };
 
