@@ -61,7 +61,9 @@ void Judge::find_moved(Simulation& sim) {
 bool Judge::look(Simulation& sim) {
   const std::uint64_t steps = sim.motion.state.steps;
   if (is_explicit(sim) && steps % look_every != 0) return false;
-  if (!is_explicit(sim) || steps % find_moved_every == 0) find_moved(sim);
+  // What holds together lags behind ground that settles, and comes back.
+  if (!sim.relaxation.holds_together && (!is_explicit(sim) || steps % find_moved_every == 0))
+    find_moved(sim);
   const bool complete = gradual_change_complete(sim);
   if (complete) {
     if (!was_complete_) follow_supports(sim);
