@@ -262,12 +262,11 @@ void find_lost_cohesion(Mechanism& m, const Simulation& stable) {
 std::string lost_cohesion_text(const Mechanism& m) {
   if (!has_lost_cohesion(m)) return {};
   return fmt::format(
-      "{:.3g} m of {:.3g} m of the mechanism's joints had no cohesion before it moved (it was "
-      "lost, "
-      "or they opened and closed again; residual.cohesion is lower): with residual.cohesion = "
-      "cohesion "
-      "the factor may be higher",
-      m.cohesion_lost_length, m.brittle_length);
+      "{} of joints in the mechanism had already lost their cohesion before failure. If cohesion "
+      "should survive, set residual.cohesion",
+      m.cohesion_lost_length >= m.brittle_length
+          ? fmt::format("all {:.3g} m", m.brittle_length)
+          : fmt::format("{:.3g} m of the {:.3g} m", m.cohesion_lost_length, m.brittle_length));
 }
 
 std::string mechanism_csv(const Simulation& sim, const Mechanism& mechanism) {

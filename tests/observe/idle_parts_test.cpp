@@ -56,5 +56,60 @@ TEST(IdleParts, GroundMotionInAStageUntilEquilibrium) {
                      words));
 }
 
+/// A stack on a boundary of some type, shaken along a direction. Whether it is said that the motion
+/// reaches no block.
+bool reaches_nothing(const std::string& boundaries, const std::string& shaking,
+                     const std::string& more = {}) {
+  const PreparedRun run = testing::prepared(
+      "[materials.rock]\ndensity = 2600\nyoung = 2e10\npoisson = 0.25\n[joints.j]\n"
+      "friction_angle = 35\n[domain]\noutline = [[0, 0], [10, 0], [10, 10], [0, 10]]\n"
+      "[[joint_set]]\nangle = 0\nspacing = 2.5\norigin = [0, 1]\n" +
+      boundaries + "[[shaking]]\nname = 'q'\n" + shaking + more +
+      (more.empty() ? "[solver]\nduration = 1\n" : ""));
+  return std::any_of(run.warnings.begin(), run.warnings.end(), [](const std::string& warning) {
+    return warning.find("reaches no block") != std::string::npos;
+  });
+}
+
+std::string along(const char* sides, const char* type, const char* name = "b") {
+  return std::string("[[boundary]]\nname = '") + name + "'\nsides = [" + sides + "]\ntype = '" +
+         type + "'\n";
+}
+
+/// A roller moves blocks across its line only, a stress not at all; the rest is the geometry of the
+/// two directions.
+TEST(IdleParts, GroundMotionThatNothingTakesUp) {
+  const std::string across = "acceleration = { amplitude = 2, frequency = 2 }\n",
+                    up = "acceleration = { amplitude = 2, frequency = 2, direction = [0, 1] }\n",
+                    oblique =
+                        "acceleration = { amplitude = 2, frequency = 2, direction = [1, 1] }\n";
+  EXPECT_TRUE(reaches_nothing(along("'bottom'", "roller"), across));
+  EXPECT_FALSE(reaches_nothing(along("'bottom'", "roller"), up));
+  EXPECT_TRUE(reaches_nothing(along("'bottom'", "roller"), oblique));
+  EXPECT_FALSE(reaches_nothing(along("'bottom', 'left'", "roller"), oblique));
+  EXPECT_FALSE(reaches_nothing(along("'left', 'right'", "roller"), across));
+  EXPECT_TRUE(reaches_nothing(along("'left', 'right'", "roller"), up));
+  for (const char* type : {"fixed", "viscous"}) {
+    for (const std::string& way : {across, up, oblique})
+      EXPECT_FALSE(reaches_nothing(along("'bottom'", type), way)) << type;
+  }
+  EXPECT_FALSE(reaches_nothing(along("'bottom'", "roller"), across + "apply = 'inertia'\n"));
+  EXPECT_FALSE(reaches_nothing(along("'bottom'", "roller"), across + "scale = 0\n"));
+  EXPECT_FALSE(reaches_nothing(along("'bottom'", "roller"), across,
+                               "[[fixed]]\npoint = [5, 0.5]\n[solver]\nduration = 1\n"));
+}
+
+/// A boundary that is gone when the ground moves does not move blocks.
+TEST(IdleParts, GroundMotionAfterItsBoundary) {
+  const std::string both = along("'bottom'", "fixed", "held") + along("'bottom'", "roller", "later"),
+                    sine = "acceleration = { amplitude = 2, frequency = 2 }\n",
+                    first = "[[stage]]\nuntil = 'equilibrium'\n";
+  EXPECT_TRUE(reaches_nothing(both, sine,
+                              first + "[[stage]]\nduration = 1\nactivate = ['later', 'q']\n"
+                                      "deactivate = ['held']\n"));
+  EXPECT_FALSE(
+      reaches_nothing(both, sine, first + "[[stage]]\nduration = 1\nactivate = ['q']\n"));
+}
+
 }  // namespace
 }  // namespace edda::idle_parts_test
