@@ -96,7 +96,7 @@ TEST(IdleParts, GroundMotionThatNothingTakesUp) {
   EXPECT_FALSE(reaches_nothing(along("'bottom'", "roller"), across + "apply = 'inertia'\n"));
   EXPECT_FALSE(reaches_nothing(along("'bottom'", "roller"), across + "scale = 0\n"));
   EXPECT_FALSE(reaches_nothing(along("'bottom'", "roller"), across,
-                               "[[fixed]]\npoint = [5, 0.5]\n[solver]\nduration = 1\n"));
+                               "[[fixed]]\npoint = [5, 2]\n[solver]\nduration = 1\n"));
 }
 
 /// A boundary that is gone when the ground moves does not move blocks.

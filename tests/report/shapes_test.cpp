@@ -62,7 +62,7 @@ TEST(Shapes, MarksLieInTheBlock) {
     EXPECT_LT(std::min(at.x, at.y), wide) << wide;
     EXPECT_GT(std::min(at.x, at.y), 0.0) << wide;
     const Vec2 centre = centre_of(g, shapes[0], drawn_points(g, 1.0));
-    if (centre.x < wide) EXPECT_EQ(at, centre) << wide;
+    EXPECT_TRUE(centre.x >= wide || at == centre) << wide;
   }
 }
 
