@@ -59,7 +59,7 @@ void Labels::write(Canvas& canvas, const std::string& text, const std::vector<Ve
       for (const Vec2 corner : corners) {
         const double before = least;
         if (least > 0.0) try_at(at + corner);
-        if (least < before) from = at, far = ring > 1;
+        if (least < before) from = at, far = ring > 0;
       }
     }
   }

@@ -97,7 +97,8 @@ class Examples(Program):
             self.assertLess(abs(float(row["axial_force"]) / force - 1.0), 1e-3)
         loose, folder = self.ran("roof-wedge", "--set", "bolt=[]", out="loose")
         self.assertEqual(loose["status"], "collapsed")
-        self.assertLess(self.moved(folder, "wedge")[1], -1.0)
+        # The run ends when it has left its place: by a tenth of the square root of its 4.8 m2.
+        self.assertLess(self.moved(folder, "wedge")[1], -0.2)
 
     def test_newmark_slides_by_the_closed_form(self):
         _, folder = self.ran("newmark")
