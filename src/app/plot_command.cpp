@@ -166,8 +166,7 @@ void add_what(CLI::App& command, PlotArguments& args) {
   CLI::Option* const relative =
       command
           .add_option("--relative-to", args.relative_to,
-                      "Displacements relative to that of a monitor, which is drawn unmoved; with "
-                      "--history also velocities")
+                      "Displacements (and velocities) relative to a monitor, drawn unmoved")
           ->type_name("MONITOR");
   CLI::Option* const history =
       command

@@ -1,7 +1,6 @@
 #include "observe/cannot_rest.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "contacts/face_reading.hpp"
@@ -11,10 +10,13 @@ namespace edda {
 namespace {
 
 /// Force, and moment over the size of the block.
-using Wrench = std::array<double, 3>;
+struct Wrench {
+  Vec2 force;
+  double moment = 0.0;
+};
 
 double product(const Wrench& a, const Wrench& b) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+  return dot(a.force, b.force) + a.moment * b.moment;
 }
 
 /// The smallest part of `load` that no sum of these forces with factors of at least 0 carries.
@@ -27,7 +29,8 @@ double part_not_carried(const std::vector<Wrench>& forces, const Wrench& load) {
     for (std::size_t j = 0; j < forces.size(); ++j) {
       const Wrench& f = forces[j];
       const double next = std::max(0.0, factor[j] - product(f, rest) / product(f, f));
-      for (std::size_t c = 0; c < 3; ++c) rest[c] += (next - factor[j]) * f[c];
+      rest.force += (next - factor[j]) * f.force;
+      rest.moment += (next - factor[j]) * f.moment;
       factor[j] = next;
     }
   }
@@ -58,7 +61,7 @@ Supports supports_of(const Simulation& sim) {
         const Vec2 on = outward_normal(t) + slip * f.friction[k] * t;
         const auto add = [&](Id i, Vec2 force) {
           const Vec2 arm = at - Vec2{b.centroid_x[i], b.centroid_y[i]};
-          s.forces[i].push_back({force.x, force.y, cross(arm, force) / std::sqrt(b.area[i])});
+          s.forces[i].push_back({force, cross(arm, force) / std::sqrt(b.area[i])});
         };
         add(other, on);
         add(one, -on);
@@ -85,7 +88,7 @@ bool some_block_moves(const Simulation& sim) {
     const Vec2 load = b.mass[i] * sim.scene->model.gravity + load_on(b, now, sim.motion.pose, i);
     if (load == Vec2{} || s.forces[i].empty()) continue;  // what touches nothing falls first
     const double size = norm(load);
-    if (part_not_carried(s.forces[i], {load.x / size, load.y / size, 0.0}) > much) return true;
+    if (part_not_carried(s.forces[i], {load / size, 0.0}) > much) return true;
   }
   return false;
 }

@@ -27,8 +27,8 @@ struct Chatter {
 /// A contact vibrates in a window in which it opens or closes many times and in which its spring,
 /// since it first did so, stores more than twice the energy at the mean force. It chatters where it
 /// did so in the window before, too: blocks that strike each other ring for one window, and go on.
-/// A block in equilibrium or in smooth sliding does neither. Stages until equilibrium are left out, since their motion is not physical. Call once
-/// every few steps.
+/// A block in equilibrium or in smooth sliding does neither. Stages until equilibrium are left out,
+/// since their motion is not physical. Call once every few steps.
 void look_for_chatter(Chatter& chatter, const Simulation& sim);
 
 }  // namespace edda

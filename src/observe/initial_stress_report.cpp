@@ -78,7 +78,8 @@ std::vector<std::uint8_t> enclosed_blocks(const Simulation& sim) {
     if (!is_closed(c, k)) continue;
     const FaceMemory& m = c.now;
     bare[block_of_edge(b, c, k)] -= std::abs(m.xi_b[k] - m.xi_a[k]) * b.edge_length[c.edge[k]];
-    bare[block_of_facing(b, c, k)] -= std::abs(m.eta_b[k] - m.eta_a[k]) * b.edge_length[c.facing[k]];
+    bare[block_of_facing(b, c, k)] -=
+        std::abs(m.eta_b[k] - m.eta_a[k]) * b.edge_length[c.facing[k]];
   }
   std::vector<std::uint8_t> enclosed(b.size(), 0);
   for (std::size_t i = 0; i < b.size(); ++i) {
@@ -180,10 +181,10 @@ std::string exceeded(const JointStress& joint) {
     return fmt::format("no part of its {:.4g} m exceeds its shear or tensile strength",
                        joint.length);
   }
-  return fmt::format("{:.3g} % of its {:.4g} m exceeds its shear strength, {:.3g} % its tensile "
-                     "strength",
-                     100.0 * part(joint.over, joint), joint.length,
-                     100.0 * part(joint.torn, joint));
+  return fmt::format(
+      "{:.3g} % of its {:.4g} m exceeds its shear strength, {:.3g} % its tensile "
+      "strength",
+      100.0 * part(joint.over, joint), joint.length, 100.0 * part(joint.torn, joint));
 }
 
 std::string weight_line(const Simulation& sim) {

@@ -106,9 +106,8 @@ class Footing {
 
 bool has_dashpots(const Simulation& sim, const BlockGroup& group) {
   const std::vector<Id>& damped = sim.attached.dashpots.damped;
-  return std::any_of(group.begin(), group.end(), [&](Id i) {
-    return std::binary_search(damped.begin(), damped.end(), i);
-  });
+  return std::any_of(group.begin(), group.end(),
+                     [&](Id i) { return std::binary_search(damped.begin(), damped.end(), i); });
 }
 
 std::string group_label(const Simulation& sim, const BlockGroup& group) {

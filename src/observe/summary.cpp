@@ -225,13 +225,14 @@ static std::string chatter_text(const Check& check, const Simulation& sim, const
       fmt::format("contacts are chattering ({:.0f} openings and closings, limit {:.0f})",
                   check.value, check.limit.value_or(0.0));
   if (chatter.block_i == no_id) return text;
-  return text + fmt::format(", mostly between {} and {} at {:.3g} s. Blocks may creep; {}try "
-                            "solver.damping.contact = 0.1",
-                            block_label(sim.scene->blocks, chatter.block_i),
-                            block_label(sim.scene->blocks, chatter.block_j), chatter.time,
-                            sim.motion.masses.viscosity.empty()
-                                ? "give the rock its damping (materials.NAME.damping = 0.5), or "
-                                : "");
+  return text + fmt::format(
+                    ", mostly between {} and {} at {:.3g} s. Blocks may creep; {}try "
+                    "solver.damping.contact = 0.1",
+                    block_label(sim.scene->blocks, chatter.block_i),
+                    block_label(sim.scene->blocks, chatter.block_j), chatter.time,
+                    sim.motion.masses.viscosity.empty()
+                        ? "give the rock its damping (materials.NAME.damping = 0.5), or "
+                        : "");
 }
 
 std::string message_of(const Check& check, const Simulation& sim, const Outcome& o) {

@@ -119,8 +119,7 @@ Vec2 mark_place(const Grid& g, const BlockShape& shape, const std::vector<Vec2>&
     for (const auto& [p, q] : shape.outline) {
       const Vec2 a = point(p), b = point(q);
       nearest = std::min(nearest, distance_to_segment(at, a, b));
-      if ((a.y > at.y) != (b.y > at.y) &&
-          at.x < a.x + (at.y - a.y) / (b.y - a.y) * (b.x - a.x))
+      if ((a.y > at.y) != (b.y > at.y) && at.x < a.x + (at.y - a.y) / (b.y - a.y) * (b.x - a.x))
         inside = !inside;
     }
     return inside ? nearest : -nearest;

@@ -101,14 +101,14 @@ TEST(IdleParts, GroundMotionThatNothingTakesUp) {
 
 /// A boundary that is gone when the ground moves does not move blocks.
 TEST(IdleParts, GroundMotionAfterItsBoundary) {
-  const std::string both = along("'bottom'", "fixed", "held") + along("'bottom'", "roller", "later"),
+  const std::string both =
+                        along("'bottom'", "fixed", "held") + along("'bottom'", "roller", "later"),
                     sine = "acceleration = { amplitude = 2, frequency = 2 }\n",
                     first = "[[stage]]\nuntil = 'equilibrium'\n";
   EXPECT_TRUE(reaches_nothing(both, sine,
                               first + "[[stage]]\nduration = 1\nactivate = ['later', 'q']\n"
                                       "deactivate = ['held']\n"));
-  EXPECT_FALSE(
-      reaches_nothing(both, sine, first + "[[stage]]\nduration = 1\nactivate = ['q']\n"));
+  EXPECT_FALSE(reaches_nothing(both, sine, first + "[[stage]]\nduration = 1\nactivate = ['q']\n"));
 }
 
 }  // namespace

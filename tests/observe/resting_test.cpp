@@ -88,9 +88,10 @@ TEST(Resting, NothingRestsOnDashpotsAlone) {
   EXPECT_FALSE(sinks(run, "gravity = [0, 0]\n")) << "a wave alone needs no support";
   EXPECT_FALSE(sinks(roller + stress + run));
   EXPECT_FALSE(sinks("[[boundary]]\nsides = ['left']\ntype = 'fixed'\n" + run));
-  EXPECT_FALSE(sinks("[[boundary]]\nname = 'held'\nsides = ['bottom']\ntype = 'fixed'\n"
-                     "[[stage]]\nuntil = 'equilibrium'\n[[stage]]\nduration = 1\n"
-                     "activate = ['base']\ndeactivate = ['held']\n"));
+  EXPECT_FALSE(
+      sinks("[[boundary]]\nname = 'held'\nsides = ['bottom']\ntype = 'fixed'\n"
+            "[[stage]]\nuntil = 'equilibrium'\n[[stage]]\nduration = 1\n"
+            "activate = ['base']\ndeactivate = ['held']\n"));
 }
 
 TEST(Resting, IsACheckThatDoesNotPass) {

@@ -97,7 +97,8 @@ TEST(Plot, NamesOfMonitorsDoNotOverlap) {
     for (std::size_t i = 0; i < names.size(); ++i) {
       for (std::size_t j = 0; j < i; ++j) {
         const Vec2 d = names[i] - names[j];
-        EXPECT_TRUE(std::abs(d.y) >= 6.5 || std::abs(d.x) >= 16.0) << count << ": " << i << " " << j;
+        EXPECT_TRUE(std::abs(d.y) >= 6.5 || std::abs(d.x) >= 16.0)
+            << count << ": " << i << " " << j;
       }
     }
   }

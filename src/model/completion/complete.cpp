@@ -90,7 +90,7 @@ void complete_material_references(const Value& root, Reading& reading) {
 /// Rough numbers of blocks: none, one or several.
 struct BlockCount {
   double all = 0.0;
-  double without_law = 0.0;            ///< blocks whose edges name no joint
+  double without_law = 0.0;           ///< blocks whose edges name no joint
   std::vector<const Where*> unnamed;  ///< the tables of these edges
   /// Counts the blocks of a table whose edges have this joint.
   void add(double blocks, Index joint, const Where& where) {
@@ -155,10 +155,12 @@ void check_laws(const Value& root, Reading& reading, bool joints_are_faulty) {
     std::vector<std::string_view> names;
     for (const JointLaw& law : model.joints) names.push_back(law.name);
     const Value* contact = find(&root, "contact");
-    add_fault(reading, contact == nullptr ? Place{1, 1, false} : contact->place, "contact.joint",
-              "is missing, and no joint is named for the edges of " + tables_text(count.unnamed),
-              "give each its joint, or contact.joint for all of them: several are defined, name one "
-              "of " + quoted_list(names));
+    add_fault(
+        reading, contact == nullptr ? Place{1, 1, false} : contact->place, "contact.joint",
+        "is missing, and no joint is named for the edges of " + tables_text(count.unnamed),
+        "give each its joint, or contact.joint for all of them: several are defined, name one "
+        "of " +
+            quoted_list(names));
   }
 }
 
@@ -250,7 +252,8 @@ double finest_record(const Model& model) {
   const auto look = [&](const std::vector<double>& time) {
     constexpr std::size_t many = 20;
     if (time.size() > many)
-      finest = std::min(finest, (time.back() - time.front()) / static_cast<double>(time.size() - 1));
+      finest =
+          std::min(finest, (time.back() - time.front()) / static_cast<double>(time.size() - 1));
   };
   for (const Shaking& shaking : model.shakings) {
     look(shaking.record.time);
@@ -342,8 +345,8 @@ void complete(const Value& root, Reading& reading) {
   check_solver(root, reading);
   complete_fos(root, reading);
   complete_points(root, reading);
-  complete_interval(root, "every", model.output.every, 20.0, std::numeric_limits<double>::infinity(),
-                    1e5, reading);
+  complete_interval(root, "every", model.output.every, 20.0,
+                    std::numeric_limits<double>::infinity(), 1e5, reading);
   complete_interval(root, "history_every", model.output.history_every, 200.0, finest_record(model),
                     1e7, reading);
   const Value* output = find(&root, "output");
