@@ -169,6 +169,50 @@ void warn_of_idle_shakings(const Simulation& sim, std::vector<std::string>& warn
   }
 }
 
+/// Per boundary, whether its springs carry force along gravity.
+std::vector<bool> carries_weight(const Simulation& sim) {
+  const Model& model = sim.scene->model;
+  const Vec2 down = unit(model.gravity);
+  std::vector<bool> carries(model.boundaries.size(), false);
+  const BoundarySprings& s = sim.attached.springs;
+  for (std::size_t q = 0; q < s.size(); ++q) {
+    const auto& [kxx, kyy, kxy] = s.acting_k[q];
+    const double along =
+        down.x * (kxx * down.x + kxy * down.y) + down.y * (kxy * down.x + kyy * down.y);
+    if (along > 1e-9 * (kxx + kyy)) carries[static_cast<std::size_t>(s.boundary[q])] = true;
+  }
+  return carries;
+}
+
+/// Stages after the first that leave the weight of the model to dashpots which have not taken it
+/// over from a boundary that they replace. (resting.hpp looks at the start.)
+void warn_of_lost_support(const Simulation& sim, std::vector<std::string>& warnings) {
+  const Model& model = sim.scene->model;
+  if (model.gravity == Vec2{} || model.initial_stress || !sim.attached.ground.fixed_blocks.empty())
+    return;
+  const std::vector<bool> carries = carries_weight(sim);
+  std::vector<bool> inherits(model.boundaries.size(), false);
+  for (std::size_t stage = 1; stage < model.stages.size(); ++stage) {
+    const Stage& now = model.stages[stage];
+    const bool replaces = !rows_called(model, now.deactivate).boundaries.empty();
+    for (const Index q : rows_called(model, now.activate).boundaries)
+      inherits[static_cast<std::size_t>(q)] = replaces;
+    bool dashpots = false, carried = false;
+    for (std::size_t q = 0; q < model.boundaries.size(); ++q) {
+      if (!acts_in_stages(model, model.boundaries[q].name)[stage]) continue;
+      dashpots = dashpots || has_dashpots(model.boundaries[q].type);
+      carried = carried || carries[q] || inherits[q];
+    }
+    if (carried || !dashpots) continue;
+    warnings.push_back(fmt::format(
+        "in {} nothing but a viscous boundary supports the model, whose dashpots carry no static "
+        "load: under gravity it sinks without end; activate the viscous boundary in the stage that "
+        "deactivates its support, so that it takes over the forces",
+        stage_label(model, stage)));
+    return;
+  }
+}
+
 }  // namespace
 
 std::vector<std::string> unused_names(const Simulation& sim) {
@@ -180,6 +224,7 @@ std::vector<std::string> unused_names(const Simulation& sim) {
   warn_of_bolts_in_one_block(sim, warnings);
   warn_of_dry_waters(sim, warnings);
   warn_of_idle_shakings(sim, warnings);
+  warn_of_lost_support(sim, warnings);
   return warnings;
 }
 

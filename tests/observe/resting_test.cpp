@@ -94,6 +94,26 @@ TEST(Resting, NothingRestsOnDashpotsAlone) {
             "activate = ['base']\ndeactivate = ['held']\n"));
 }
 
+/// A boundary that is taken away leaves the weight to dashpots, unless they begin where it ends.
+TEST(Resting, DashpotsTakeOverOnlyWhereTheyReplaceASupport) {
+  const auto told = [](const std::string& activate, const std::string& deactivate) {
+    const PreparedRun run = prepared(
+        "[materials.rock]\ndensity = 2600\nyoung = 1e9\npoisson = 0.2\n[joints.j]\n"
+        "friction_angle = 30\n[domain]\noutline = [[0, 0], [10, 0], [10, 10], [0, 10]]\n"
+        "[[joint_set]]\nangle = 0\nspacing = 2.5\norigin = [0, 1]\n[[boundary]]\nname = 'base'\n"
+        "sides = ['bottom']\ntype = 'viscous'\n[[boundary]]\nname = 'held'\nsides = ['bottom']\n"
+        "[[stage]]\nuntil = 'equilibrium'\n[[stage]]\nduration = 1\nactivate = [" +
+        activate + "]\ndeactivate = [" + deactivate + "]\n");
+    EXPECT_EQ(run.on_nothing, 0u);
+    return std::any_of(run.warnings.begin(), run.warnings.end(), [](const std::string& warning) {
+      return warning.starts_with("in stage 2 nothing but a viscous boundary");
+    });
+  };
+  EXPECT_TRUE(told("", "'held'"));
+  EXPECT_FALSE(told("'base'", "'held'"));
+  EXPECT_FALSE(told("'base'", ""));
+}
+
 TEST(Resting, IsACheckThatDoesNotPass) {
   const auto failed = [](const testing::Ran& r) {
     return std::count_if(

@@ -268,20 +268,23 @@ double finest_record(const Model& model) {
 }
 
 /// A default of duration / `parts` (0 where no duration is given), or `finer`, and a fault where
-/// there would be more than `most` rows.
+/// there would be more than `most` rows. Stages until equilibrium and ramps end before their time,
+/// and have rows of their own (output.settling): where there are others, the duration is that of
+/// these, as long as this makes at most ten times as many rows.
 void complete_interval(const Value& root, const char* key, double& interval, double parts,
                        double finer, double most, Reading& reading) {
   const Value* value = find(find(&root, "output"), key);
-  // How long a ramp or a stage until equilibrium takes is not known: each counts as 10 s at most.
   const auto& stages = reading.model.stages;
-  double duration = stages.empty() ? reading.model.solver.duration : 0.0;
+  double duration = stages.empty() ? reading.model.solver.duration : 0.0, timed = 0.0;
   for (const Stage& stage : stages) {
     const bool known = !stage.ramp && stage.until == StageEnd::time;
+    if (known) timed += stage.duration;
     duration += known ? stage.duration : std::min(stage.duration, Stage{}.duration);
   }
   if (value == nullptr) {
     constexpr double most_parts = 20000.0;
-    interval = std::min(duration / parts, std::max(finer, duration / most_parts));
+    const double spread = timed > 0.0 ? std::max(timed, 0.1 * duration) : duration;
+    interval = std::min(spread / parts, std::max(finer, duration / most_parts));
     interval = duration > 0.0 ? fitted(interval) : 0.0;
   } else if (interval > 0.0 && duration / interval > most) {
     add_fault(reading, value->place, std::string("output.") + key,
