@@ -86,6 +86,16 @@ TEST(Plot, MonitorsStandWhereTheirBlockHasGone) {
   EXPECT_NEAR((points_of(marks[0])[0].x - radius - x2) / (x4 - x2), -0.75, 1e-3);
 }
 
+/// A monitor on the surface, which had settled a little before displacements were reset.
+TEST(Plot, MonitorsStandOnASurfaceThatHasSettled) {
+  const Snapshot shot = snapshot("none");
+  PlotOptions options;
+  options.monitors = {{"high", {0.5, 1.0001}}, {"beyond", {0.5, 1.2}}};
+  const std::string svg = drawn({&shot, 1}, options);
+  EXPECT_TRUE(text_of(svg, "high"));
+  EXPECT_FALSE(text_of(svg, "beyond"));
+}
+
 TEST(Plot, NamesOfMonitorsDoNotOverlap) {
   const Snapshot shot = snapshot("none");
   for (const int count : {5, 12, 24}) {
