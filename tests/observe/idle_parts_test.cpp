@@ -1,7 +1,10 @@
 // Warnings of what a model has to no effect, or acts where it cannot.
 #include <gtest/gtest.h>
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cmath>
 
 #include "run/prepared.hpp"
 
@@ -109,6 +112,40 @@ TEST(IdleParts, GroundMotionAfterItsBoundary) {
                               first + "[[stage]]\nduration = 1\nactivate = ['later', 'q']\n"
                                       "deactivate = ['held']\n"));
   EXPECT_FALSE(reaches_nothing(both, sine, first + "[[stage]]\nduration = 1\nactivate = ['q']\n"));
+}
+
+/// A tilted wall whose coordinates are rounded: what its bricks overlap by is no news where a stage
+/// brings them to rest first; where gravity acts at once it is, as soon as it could lift them.
+TEST(IdleParts, OverlapsOfRoundedCoordinates) {
+  const auto told = [](int decimals, const std::string& end, double shift = 0.0) {
+    std::string text =
+        "[materials.rock]\ndensity = 2600\nyoung = 1e10\npoisson = 0.25\n[joints.j]\n"
+        "friction_angle = 35\n" +
+        end;
+    const double unit = std::pow(10.0, -decimals);
+    for (int row = 0; row < 5; ++row) {
+      for (int k = 0; k < 5; ++k) {
+        const double x = 0.4 * k + 0.2 * (row % 2), y = 0.3 * row;
+        text += row == 0 ? "[[block]]\nfixed = true\npolygon = [" : "[[block]]\npolygon = [";
+        for (Vec2 p : {Vec2{x, y}, {x + 0.4, y}, {x + 0.4, y + 0.3}, {x, y + 0.3}}) {
+          p = rotated(p, 0.2);
+          if (row == 3 && k == 2) p.y -= shift;
+          text += fmt::format("[{:.{}f}, {:.{}f}],", unit * std::round(p.x / unit), decimals,
+                              unit * std::round(p.y / unit), decimals);
+        }
+        text += "]\n";
+      }
+    }
+    const PreparedRun run = testing::prepared(text);
+    return std::any_of(run.warnings.begin(), run.warnings.end(), [](const std::string& warning) {
+      return warning.starts_with("blocks overlap at the start");
+    });
+  };
+  const std::string rest = "[[stage]]\nuntil = 'equilibrium'\n", run = "[solver]\nduration = 1\n";
+  for (const int decimals : {3, 4, 5, 6}) EXPECT_FALSE(told(decimals, rest)) << decimals;
+  EXPECT_TRUE(told(3, run));
+  EXPECT_FALSE(told(6, run));
+  EXPECT_TRUE(told(6, rest, 1e-4)) << "drawn into each other by more than rounding";
 }
 
 }  // namespace
