@@ -166,7 +166,7 @@ void add_what(CLI::App& command, PlotArguments& args) {
   CLI::Option* const relative =
       command
           .add_option("--relative-to", args.relative_to,
-                      "Displacements relative to that of a monitor, which is drawn unmoved")
+                      "Displacements (and velocities) relative to a monitor, drawn unmoved")
           ->type_name("MONITOR");
   CLI::Option* const history =
       command
@@ -182,11 +182,11 @@ void add_what(CLI::App& command, PlotArguments& args) {
                     "The curve of a ramp instead: what it varies against the monitors' "
                     "displacements")
           ->excludes(history);
-  for (CLI::Option* other :
-       {field, time, compare, before, vectors, forces, principal, bolts, relative}) {
+  for (CLI::Option* other : {field, time, compare, before, vectors, forces, principal, bolts}) {
     history->excludes(other);
     curve->excludes(other);
   }
+  curve->excludes(relative);
 }
 
 void add_how(CLI::App& command, PlotArguments& args) {

@@ -249,10 +249,22 @@ Trouble read_histories(const PlotArguments& args, HistorySource& source) {
   if (!table.ok() || table.value().column("time") == nullptr)
     return no_results(args.source, "holds no history.csv");
   source.table = std::move(table.value());
+  if (!args.relative_to.empty() && !move_with(source.table, args.relative_to)) {
+    std::vector<PlotMonitor> monitors;
+    for (const Column& column : source.table.columns) {
+      if (column.name.ends_with(".ux"))
+        monitors.push_back({column.name.substr(0, column.name.size() - 3), {}});
+    }
+    return no_monitor(args, monitors);
+  }
   Result<std::vector<HistoryPanel>> panels = history_panels(source.table, args.history);
   if (!panels.ok()) return panels.faults().front();
   HistoryPicture& picture = source.picture;
   picture.panels = std::move(panels.value());
+  for (HistoryPanel& panel : picture.panels) {
+    if (!args.relative_to.empty() && (panel.label == "displacement" || panel.label == "velocity"))
+      panel.label += " relative to " + args.relative_to;
+  }
   picture.time = source.table.column("time")->values;
   picture.stages = stages_of(args.source);
   if (!args.range.empty()) picture.range = Vec2{args.range[0], args.range[1]};

@@ -153,7 +153,8 @@ Result<PolygonSet> all_blocks(const Model& model, const Imports& imports, bool f
     if (!faults.empty()) return faults;
   }
   if (!closed.empty()) set.report.notes.push_back(closed);
-  faults = find_overlaps(set.blocks, first_cut);
+  set.report.rounding = overlap_by_rounding(model, imports);
+  faults = find_overlaps(set.blocks, first_cut, set.report.rounding);
   if (!faults.empty()) return faults;
   measure_quality(set.blocks, set.origin, set.report);
   judge_blocks(std::span(set.blocks).subspan(first_cut), model.quality, set.origin, set.report);

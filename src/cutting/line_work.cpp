@@ -34,25 +34,7 @@ Fault too_many_lines(const JointSet& set, long long max_blocks) {
           "raise the spacing, give the set a region, or raise domain.max_blocks"};
 }
 
-/// `unit` where coordinates can have been rounded to it; 0 where it would be too coarse for a model
-/// of that size, so that its coordinates are short because they are exact.
-double rounding(double unit, double size) {
-  constexpr double coarsest = 2.1e-3;
-  return unit <= coarsest * size ? unit : 0.0;
-}
-
-double last_digit(std::span<const Ring> rings) {
-  Digits digits;
-  for (const Ring& ring : rings) {
-    for (const Vec2 p : ring) {
-      digits.add(p.x);
-      digits.add(p.y);
-    }
-  }
-  return digits.unit();
-}
-
-double last_digit(const std::vector<Trace>& traces) {
+double last_digit_of(const std::vector<Trace>& traces) {
   std::vector<Ring> all;
   for (const Trace& trace : traces) all.push_back(trace.points);
   return last_digit(all);
@@ -61,7 +43,7 @@ double last_digit(const std::vector<Trace>& traces) {
 /// The lines that are drawn by points: one unit of the last digit of these, and the snap of
 /// imports.
 void add_rounding(const Model& model, const Imports& imports, LineWork& work) {
-  const double size = size_of(work.outline), traces = last_digit(model.traces);
+  const double size = size_of(work.outline), traces = last_digit_of(model.traces);
   for (LineSource& s : work.sources) {
     const auto i = static_cast<std::size_t>(s.index);
     double unit = 0.0;
@@ -108,6 +90,22 @@ void add_imports(LineWork& work, const Imports& imports, Vec2 origin, Index othe
 }
 
 }  // namespace
+
+double rounding(double unit, double size) {
+  constexpr double coarsest = 2.1e-3;
+  return unit <= coarsest * size ? unit : 0.0;
+}
+
+double last_digit(std::span<const Ring> rings) {
+  Digits digits;
+  for (const Ring& ring : rings) {
+    for (const Vec2 p : ring) {
+      digits.add(p.x);
+      digits.add(p.y);
+    }
+  }
+  return digits.unit();
+}
 
 Result<LineWork> line_work(const Model& model, Vec2 origin, double snap, const Imports& imports) {
   const Domain& domain = *model.domain;

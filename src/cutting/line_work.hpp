@@ -3,6 +3,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -38,6 +39,12 @@ struct LineWork {
   std::vector<Ring> openings;      ///< counter-clockwise, local, in file order
   std::vector<std::string> notes;  ///< what was drawn at random, for the user to read
 };
+
+/// One unit of the last digit of these coordinates, m.
+double last_digit(std::span<const Ring> rings);
+/// `unit` where coordinates can have been rounded to it; 0 where it would be too coarse for a model
+/// of that size, so that its coordinates are short because they are exact.
+double rounding(double unit, double size);
 
 /// The line work of model.domain relative to `origin`. Joint-set lines run from just outside the
 /// outline to just outside it, or to the edge of their region. Fault: a set of more lines than

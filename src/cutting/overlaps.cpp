@@ -11,6 +11,7 @@
 #include "base/polygon.hpp"
 #include "base/text.hpp"
 #include "cutting/geos.hpp"
+#include "cutting/line_work.hpp"
 
 namespace edda {
 namespace {
@@ -127,10 +128,12 @@ Fault overlap_fault(std::span<const BlockPolygon> blocks, std::size_t first_cut,
                     std::size_t j, double depth, double allowed) {
   const std::size_t placed = j < first_cut ? j : i;
   const std::size_t other = placed == j ? i : j;
+  int digits = 4;  // as many as tell the two from each other
+  while (number_text(depth, digits) == number_text(allowed, digits) && digits < 17) ++digits;
   return {blocks[placed].where,
           name_of(blocks[placed], placed) + " overlaps " + (other >= first_cut ? "cut " : "") +
-              name_of(blocks[other], other) + " by " + number_text(depth, 4) + " m, more than " +
-              number_text(allowed, 4) + " m (1e-3 of the smaller's size)",
+              name_of(blocks[other], other) + " by " + number_text(depth, digits) +
+              " m, more than " + number_text(allowed, digits) + " m",
           "move them apart, or fix both"};
 }
 
@@ -170,11 +173,32 @@ double overlap_depth(const BlockPolygon& a, const BlockPolygon& b) {
                    shared_circle(a.rings, b.rings, box_a), shared_circle(b.rings, a.rings, box_b)});
 }
 
-double allowed_overlap(const BlockPolygon& a, const BlockPolygon& b) {
-  return 1e-3 * std::sqrt(std::min(moments(a.rings).area, moments(b.rings).area));
+double overlap_by_rounding(const Model& model, const Imports& imports) {
+  std::vector<Ring> rings;
+  Box box{{1e300, 1e300}, {-1e300, -1e300}};
+  const auto look = [&](const Ring& ring) {
+    for (const Vec2 p : ring) {
+      box.low = {std::min(box.low.x, p.x), std::min(box.low.y, p.y)};
+      box.high = {std::max(box.high.x, p.x), std::max(box.high.y, p.y)};
+    }
+  };
+  for (const BlockInput& block : model.blocks) rings.push_back(block.polygon);
+  std::for_each(rings.begin(), rings.end(), look);
+  double unit = last_digit(rings);
+  for (const ImportedBlock& block : imports.blocks) {
+    look(block.ring);
+    unit = std::max(unit, imports.last_digit[static_cast<std::size_t>(block.import)]);
+  }
+  // Each of two corners is moved by half a unit at most in both directions.
+  return 1.5 * rounding(unit, std::max(box.high.x - box.low.x, box.high.y - box.low.y));
 }
 
-Faults find_overlaps(std::span<const BlockPolygon> blocks, std::size_t first_cut) {
+double allowed_overlap(const BlockPolygon& a, const BlockPolygon& b, double rounding) {
+  const double size = std::sqrt(std::min(moments(a.rings).area, moments(b.rings).area));
+  return std::max(1e-3 * size, std::min(rounding, 1e-2 * size));
+}
+
+Faults find_overlaps(std::span<const BlockPolygon> blocks, std::size_t first_cut, double rounding) {
   Faults faults;
   if (first_cut == 0) return faults;
   const std::vector<Box> boxes = boxes_of(blocks);
@@ -182,7 +206,7 @@ Faults find_overlaps(std::span<const BlockPolygon> blocks, std::size_t first_cut
   std::size_t more = 0;
   for_each_near_pair(boxes, first_cut, [&](std::size_t i, std::size_t j) {
     if (blocks[i].fixed && blocks[j].fixed) return;
-    const double allowed = allowed_overlap(blocks[i], blocks[j]);
+    const double allowed = allowed_overlap(blocks[i], blocks[j], rounding);
     if (shared_width(boxes[i], boxes[j]) <= allowed) return;
     const double depth = overlap_depth(blocks[i], blocks[j]);
     if (depth <= allowed) return;

@@ -63,6 +63,7 @@ struct CutReport {
   double smallest_area = 0.0;         ///< m2, over all blocks
   double smallest_edge = 0.0;         ///< m
   double smallest_angle = 0.0;        ///< degrees
+  double rounding = 0.0;  ///< m, by which rounded coordinates of given blocks may overlap
   Vec2 smallest_area_at, smallest_edge_at, smallest_angle_at;  ///< model coordinates (origin added)
 };
 

@@ -75,8 +75,8 @@ std::optional<std::string> unit_doubt(const Model& model, const Imports& imports
   const auto said = imports.drawn_in[i];
   if (!import.size_given && said && *said != import.units) {
     return import.where.key + ".units: " + std::filesystem::path(import.file).filename().string() +
-           " says that it is drawn in " + name_of(*said) + " ($INSUNITS), and is read in " +
-           name_of(import.units) + ": write units = \"" + name_of(*said) + "\", or units = \"" +
+           " gives its unit as " + name_of(*said) + " ($INSUNITS), but it is read as drawn in \"" +
+           name_of(import.units) + "\": write units = \"" + name_of(*said) + "\", or units = \"" +
            name_of(import.units) + "\" if the drawing is wrong";
   }
   if (!model.domain) return std::nullopt;

@@ -1,5 +1,8 @@
 #include "observe/chatter.hpp"
 
+#include <algorithm>
+#include <utility>
+
 #include "contacts/face_reading.hpp"
 #include "step/faces_now.hpp"
 
@@ -30,10 +33,15 @@ void begin_window(Chatter& w, const Simulation& sim) {
 
 void judge(Chatter& w, const Simulation& sim) {
   const FaceSet& c = sim.motion.contacts;
+  const std::vector<std::uint64_t> before = std::exchange(w.last, {});
   for (std::size_t k = 0; k < c.size(); ++k) {
     const Id count = switches(sim, k) - w.before[k];
     if (count < again) continue;
     if (w.squares[k] * w.samples[k] < above_mean * w.sum[k] * w.sum[k]) continue;
+    const auto [i, j] = blocks_of_face(sim.scene->blocks, c, k);
+    const std::uint64_t pair = (std::uint64_t{i} << 32) | j;
+    w.last.push_back(pair);
+    if (!std::binary_search(before.begin(), before.end(), pair)) continue;
     w.count += count;
     if (count <= w.worst) continue;
     w.worst = count;
@@ -41,6 +49,7 @@ void judge(Chatter& w, const Simulation& sim) {
     w.block_j = block_of_edge(sim.scene->blocks, c, k);
     w.time = sim.motion.state.time;
   }
+  std::sort(w.last.begin(), w.last.end());
 }
 
 }  // namespace
@@ -48,6 +57,7 @@ void judge(Chatter& w, const Simulation& sim) {
 void look_for_chatter(Chatter& w, const Simulation& sim) {
   if (!is_explicit(sim) || sim.relaxation.seeks_equilibrium) {
     w.looks = 0;
+    w.last.clear();
     return;
   }
   const FaceSet& c = sim.motion.contacts;

@@ -35,7 +35,8 @@ Sets groups_of(const Simulation& sim) {
   return sets;
 }
 
-/// [nb] 1: the block is fixed, or something acts on it that may support it.
+/// [nb] 1: the block is fixed, or something acts on it that may support it. Dashpots do not: they
+/// carry no static load.
 std::vector<std::uint8_t> supported_blocks(const Simulation& sim, Vec2 down) {
   std::vector<std::uint8_t> supported = sim.scene->blocks.fixed;
   const BoundarySprings& s = sim.attached.springs;
@@ -46,7 +47,6 @@ std::vector<std::uint8_t> supported_blocks(const Simulation& sim, Vec2 down) {
       if (along > 1e-9 * (s.kxx[q] + s.kyy[q])) supported[i] = 1;
     }
   }
-  for (const Id i : sim.attached.dashpots.blocks) supported[i] = 1;
   for (const Id i : sim.attached.loads.blocks) supported[i] = 1;
   return supported;
 }
@@ -103,6 +103,12 @@ class Footing {
   std::vector<double> bottom_ =
       std::vector<double>(strips, -std::numeric_limits<double>::infinity());
 };
+
+bool has_dashpots(const Simulation& sim, const BlockGroup& group) {
+  const std::vector<Id>& damped = sim.attached.dashpots.damped;
+  return std::any_of(group.begin(), group.end(),
+                     [&](Id i) { return std::binary_search(damped.begin(), damped.end(), i); });
+}
 
 std::string group_label(const Simulation& sim, const BlockGroup& group) {
   const Id i = group.front();
@@ -161,6 +167,18 @@ std::vector<std::string> warnings_of(const Simulation& sim, const std::vector<Bl
   std::size_t count = 0;
   for (const BlockGroup& group : groups) count += group.size();
   if (count == 0) return {};
+  const auto sinking = std::find_if(groups.begin(), groups.end(), [&](const BlockGroup& group) {
+    return has_dashpots(sim, group);
+  });
+  if (sinking != groups.end()) {
+    return {fmt::format(
+        "{} {} on a viscous boundary alone, whose dashpots carry no static load: under gravity "
+        "{} without end; support the model by a [[boundary]] of type = \"fixed\" or \"roller\" in "
+        "a [[stage]] until = \"equilibrium\", and let the viscous boundary take over from it in "
+        "the next stage (activate, deactivate), or give [initial_stress]",
+        group_label(sim, *sinking), sinking->size() == 1 ? "rests" : "rest",
+        sinking->size() == 1 ? "it sinks" : "they sink")};
+  }
   const char* remedy =
       "give a [[boundary]], fixed = true of a [[block]], or a [[fixed]] point; where the fall is "
       "meant, there is nothing to do";

@@ -165,7 +165,7 @@ std::vector<Check> checks_of(const Simulation& sim, const Outcome& o) {
       limited(std::string(overlap_check), o.overlap.ratio, overlap_limit),
       limited("overlap over half width at the end", o.overlap_now, overlap_limit_at_end),
       limited("largest drift of the energy", o.largest_energy_error, 0.05),
-      limited("energy that no physics gave or took, of the largest", o.largest_transfer, 1e-3),
+      limited("numerical energy error / largest energy", o.largest_transfer, 1e-3),
       limited("number of blocks that rest on nothing at the start",
               static_cast<double>(o.on_nothing), 0.0),
   };
@@ -220,7 +220,23 @@ std::vector<Check> checks_of(const Simulation& sim, const Outcome& o) {
   return checks;
 }
 
+static std::string chatter_text(const Check& check, const Simulation& sim, const Chatter& chatter) {
+  std::string text =
+      fmt::format("contacts are chattering ({:.0f} openings and closings, limit {:.0f})",
+                  check.value, check.limit.value_or(0.0));
+  if (chatter.block_i == no_id) return text;
+  return text + fmt::format(
+                    ", mostly between {} and {} at {:.3g} s. Blocks may creep; {}try "
+                    "solver.damping.contact = 0.1",
+                    block_label(sim.scene->blocks, chatter.block_i),
+                    block_label(sim.scene->blocks, chatter.block_j), chatter.time,
+                    sim.motion.masses.viscosity.empty()
+                        ? "give the rock its damping (materials.NAME.damping = 0.5), or "
+                        : "");
+}
+
 std::string message_of(const Check& check, const Simulation& sim, const Outcome& o) {
+  if (check.name == chatter_check) return chatter_text(check, sim, o.chatter);
   std::string text = fmt::format("{} is {:.3g}, more than {:.3g}", check.name, check.value,
                                  check.limit.value_or(0.0));
   if (check.name == overlap_check && o.overlap.block_i != no_id) {
@@ -229,22 +245,11 @@ std::string message_of(const Check& check, const Simulation& sim, const Outcome&
                         block_label(sim.scene->blocks, o.overlap.block_j),
                         place_label(o.overlap.place), o.overlap.time);
   }
-  if (check.name == chatter_check && o.chatter.block_i != no_id) {
-    text += fmt::format(
-        ": most between {} and {}, t = {:.6g} s; blocks that friction should hold may creep, and "
-        "sliding blocks may be thrown off, unless a block rocks there: {}give "
-        "solver.damping.contact = 0.1",
-        block_label(sim.scene->blocks, o.chatter.block_i),
-        block_label(sim.scene->blocks, o.chatter.block_j), o.chatter.time,
-        sim.motion.masses.viscosity.empty()
-            ? "give the rock its damping (materials.NAME.damping = 0.5), or "
-            : "");
-  }
   if (check.name == rigid_check) {
     text += fmt::format(
-        ": as rigid blocks it has a factor of safety of {:.4g} and no equilibrium; a sharp tip or "
-        "a ledge holds blocks that deform, as in a kink of their base, at the heel of a wall or at "
-        "a toe, or a gap between blocks as drawn has closed: see edda limit",
+        ": rigid blocks of the same geometry have a factor of safety of {:.4g} and no equilibrium. "
+        "The blocks are held by a geometric detail: a sharp tip, a ledge, or a joint that has "
+        "closed; see edda limit",
         *o.rigid_factor);
   }
   if (check.name == aside_check) {

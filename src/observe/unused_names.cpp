@@ -3,7 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
+
+#include "model/files/accelerogram.hpp"
+#include "model/stage_names.hpp"
 
 namespace edda {
 namespace {
@@ -87,6 +91,128 @@ void warn_of_dry_waters(const Simulation& sim, std::vector<std::string>& warning
   }
 }
 
+/// [stages] Whether the element of this name acts.
+std::vector<bool> acts_in_stages(const Model& model, const std::string& name) {
+  const auto names = [&](const std::vector<std::string>& list) {
+    return !name.empty() && std::find(list.begin(), list.end(), name) != list.end();
+  };
+  bool acts = acts_at_first(model, name);
+  std::vector<bool> in;
+  for (const Stage& stage : stages_of(model)) {
+    acts = names(stage.activate) || (acts && !names(stage.deactivate));
+    in.push_back(acts);
+  }
+  return in;
+}
+
+/// A symmetric matrix: the force of what moves with the ground per displacement, or velocity.
+struct Grip {
+  double xx = 0.0, yy = 0.0, xy = 0.0;
+  /// Adds another in proportion to its largest entry: springs and dashpots have different units.
+  void add(double axx, double ayy, double axy) {
+    const double size = axx + ayy;
+    if (size > 0.0) xx += axx / size, yy += ayy / size, xy += axy / size;
+  }
+  Vec2 of(Vec2 a) const { return {xx * a.x + xy * a.y, xy * a.x + yy * a.y}; }
+  bool holds(Vec2 direction) const { return norm(of(direction)) > 1e-6 * std::max(xx + yy, 1.0); }
+};
+
+/// How fixed blocks and boundaries that act together with a ground motion take blocks along.
+Grip grip_of(const Simulation& sim, const std::vector<bool>& shaken) {
+  const Scene& scene = *sim.scene;
+  std::vector<std::uint8_t> together;
+  for (const Boundary& boundary : scene.model.boundaries) {
+    const std::vector<bool> in = acts_in_stages(scene.model, boundary.name);
+    bool any = false;
+    for (std::size_t q = 0; q < in.size(); ++q) any = any || (in[q] && shaken[q]);
+    together.push_back(any);
+  }
+  Grip grip;
+  if (!sim.attached.ground.fixed_blocks.empty()) grip.add(1.0, 1.0, 0.0);
+  const BoundarySprings& s = sim.attached.springs;
+  for (std::size_t q = 0; q < s.size(); ++q) {
+    const auto& [kxx, kyy, kxy] = s.acting_k[q];
+    if (together[static_cast<std::size_t>(s.boundary[q])]) grip.add(kxx, kyy, kxy);
+  }
+  for (const Dashpot& p : sim.attached.dashpots.points) {
+    if (together[static_cast<std::size_t>(p.boundary)]) grip.add(p.cxx, p.cyy, p.cxy);
+  }
+  return grip;
+}
+
+/// Ground motions of fixed blocks and boundaries that no block feels, or not the whole of them.
+void warn_of_idle_shakings(const Simulation& sim, std::vector<std::string>& warnings) {
+  const Model& model = sim.scene->model;
+  for (const Shaking& shaking : model.shakings) {
+    if (shaking.apply != ShakingKind::base || shaking.scale == 0.0) continue;
+    std::vector<Vec2> motion = shaking.record.acceleration;
+    if (shaking.acceleration.file.empty()) motion = {shaking.acceleration.direction};
+    const Grip grip = grip_of(sim, acts_in_stages(model, shaking.name));
+    Vec2 lost;
+    bool any = false;
+    for (const Vec2 a : motion) {
+      if (a == Vec2{}) continue;
+      any = any || grip.holds(unit(a));
+      for (const Vec2 part : {Vec2{a.x, 0.0}, Vec2{0.0, a.y}}) {
+        if (norm(part) > 1e-6 * norm(a) && !grip.holds(unit(part)) && norm(part) > norm(lost))
+          lost = part;
+      }
+    }
+    if (lost == Vec2{}) continue;
+    warnings.push_back(fmt::format(
+        "{}: the ground motion{} reaches no block: there is no fixed block, and no boundary that "
+        "moves blocks {} (a roller moves them across its line only, and a stress not at all): give "
+        "a [[boundary]] of type = \"fixed\", fixed = true of the blocks that it moves, or apply = "
+        "\"inertia\"",
+        shaking.where.key, any ? lost.x != 0.0 ? " along x" : " along y" : "",
+        lost.x != 0.0 ? "along x" : "along y"));
+  }
+}
+
+/// Per boundary, whether its springs carry force along gravity.
+std::vector<bool> carries_weight(const Simulation& sim) {
+  const Model& model = sim.scene->model;
+  const Vec2 down = unit(model.gravity);
+  std::vector<bool> carries(model.boundaries.size(), false);
+  const BoundarySprings& s = sim.attached.springs;
+  for (std::size_t q = 0; q < s.size(); ++q) {
+    const auto& [kxx, kyy, kxy] = s.acting_k[q];
+    const double along =
+        down.x * (kxx * down.x + kxy * down.y) + down.y * (kxy * down.x + kyy * down.y);
+    if (along > 1e-9 * (kxx + kyy)) carries[static_cast<std::size_t>(s.boundary[q])] = true;
+  }
+  return carries;
+}
+
+/// Stages after the first that leave the weight of the model to dashpots which have not taken it
+/// over from a boundary that they replace. (resting.hpp looks at the start.)
+void warn_of_lost_support(const Simulation& sim, std::vector<std::string>& warnings) {
+  const Model& model = sim.scene->model;
+  if (model.gravity == Vec2{} || model.initial_stress || !sim.attached.ground.fixed_blocks.empty())
+    return;
+  const std::vector<bool> carries = carries_weight(sim);
+  std::vector<bool> inherits(model.boundaries.size(), false);
+  for (std::size_t stage = 1; stage < model.stages.size(); ++stage) {
+    const Stage& now = model.stages[stage];
+    const bool replaces = !rows_called(model, now.deactivate).boundaries.empty();
+    for (const Index q : rows_called(model, now.activate).boundaries)
+      inherits[static_cast<std::size_t>(q)] = replaces;
+    bool dashpots = false, carried = false;
+    for (std::size_t q = 0; q < model.boundaries.size(); ++q) {
+      if (!acts_in_stages(model, model.boundaries[q].name)[stage]) continue;
+      dashpots = dashpots || has_dashpots(model.boundaries[q].type);
+      carried = carried || carries[q] || inherits[q];
+    }
+    if (carried || !dashpots) continue;
+    warnings.push_back(fmt::format(
+        "in {} nothing but a viscous boundary supports the model, whose dashpots carry no static "
+        "load: under gravity it sinks without end; activate the viscous boundary in the stage that "
+        "deactivates its support, so that it takes over the forces",
+        stage_label(model, stage)));
+    return;
+  }
+}
+
 }  // namespace
 
 std::vector<std::string> unused_names(const Simulation& sim) {
@@ -97,6 +223,8 @@ std::vector<std::string> unused_names(const Simulation& sim) {
                "no block is made of it", warnings);
   warn_of_bolts_in_one_block(sim, warnings);
   warn_of_dry_waters(sim, warnings);
+  warn_of_idle_shakings(sim, warnings);
+  warn_of_lost_support(sim, warnings);
   return warnings;
 }
 

@@ -41,7 +41,11 @@ void Labels::write(Canvas& canvas, const std::string& text, const std::vector<Ve
       best = box;
     }
   };
-  for (const double d : {off, off + 1.1 * font_, off + 2.2 * font_}) {
+  constexpr int rings = 12;
+  Vec2 from;  // the mark of the best place, and whether it is so far that a line leads to it
+  bool far = false;
+  for (int ring = 0; ring < rings && least > 0.0; ++ring) {
+    const double d = off + 1.1 * font_ * ring;
     // Lower left corners of the label, best sides first; then further away.
     const std::array<Vec2, 8> corners{{{d, -d},
                                        {-d - wide, -d},
@@ -53,9 +57,16 @@ void Labels::write(Canvas& canvas, const std::string& text, const std::vector<Ve
                                        {-0.5 * wide, d + high}}};
     for (const Vec2 at : places) {
       for (const Vec2 corner : corners) {
+        const double before = least;
         if (least > 0.0) try_at(at + corner);
+        if (least < before) from = at, far = ring > 0;
       }
     }
+  }
+  if (far) {
+    const Vec2 to{std::clamp(from.x, best.low.x, best.high.x),
+                  std::clamp(from.y, best.low.y, best.high.y)};
+    canvas.line(from + radius * unit(to - from), to, 0.4);
   }
   taken_.push_back(best);
   canvas.text(text, {best.low.x, best.high.y},

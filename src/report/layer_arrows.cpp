@@ -23,7 +23,7 @@ double raster(const PlotScene& s) {
 std::vector<std::size_t> shown_shapes(const PlotScene& s, std::vector<Vec2>& centres) {
   centres.clear();
   for (const BlockShape& shape : s.shapes) {
-    centres.push_back(centre_of(s.grid(), shape, s.points));
+    centres.push_back(mark_place(s.grid(), shape, s.points));
   }
   return thinned(centres, raster(s));
 }

@@ -134,7 +134,13 @@ Legend::Legend(const ColourScale& scale, const ShownField& field,
       const bool has_brackets = label_.find('(') != std::string::npos;
       label_ += has_brackets ? ", " + unit.name : " (" + unit.name + ")";
     }
-    const auto number = [&](double v) { return typeset(fmt::format("{:.3g}", v * factor_ + 0.0)); };
+    // A value far beyond the bar has a unit of its own: 0.8 m beside a bar in um.
+    const auto number = [&](double v) {
+      const ScaledUnit own = scaled_unit(field_.unit, std::abs(v));
+      const bool is_far = std::abs(v) * factor_ >= 1000.0 && own.factor != factor_;
+      const std::string text = fmt::format("{:.3g}", v * (is_far ? own.factor : factor_) + 0.0);
+      return typeset(is_far ? text + " " + own.name : text);
+    };
     if (scale_.values_below()) label_ += ", from " + number(scale_.all().low);
     if (scale_.values_above()) label_ += ", up to " + number(scale_.all().high);
   }

@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
+#include "base/text.hpp"
 #include "report/canvas.hpp"
 #include "report/faces.hpp"
 #include "report/legend.hpp"
@@ -88,12 +90,46 @@ std::vector<LegendKey> keys_of(std::span<const Snapshot> shots, const PlotOption
   return keys;
 }
 
-/// The visible range: the window, or everything in any of the drawings.
-Box world_of(const std::vector<PlotScene>& scenes, const PlotOptions& options) {
-  if (options.window) return *options.window;
+/// Whether a block has moved by more than the model was large at the start: it falls without end.
+std::vector<std::uint8_t> gone_blocks(const PlotScene& s) {
+  const std::vector<Vec2> first = drawn_points(s.grid(), 0.0), now = drawn_points(s.grid(), 1.0);
+  const Box box = box_around(first);
+  const double size = std::max(box.width(), box.height());
+  std::vector<std::uint8_t> gone;
+  for (const BlockShape& shape : s.shapes) {
+    const auto p = static_cast<std::size_t>(s.grid().corners[s.grid().begin(shape.first_cell)]);
+    gone.push_back(norm(now[p] - first[p]) > size ? 1 : 0);
+  }
+  return gone;
+}
+
+/// The visible range: the window, or everything in any of the drawings, without the fewer than half
+/// of the blocks that have gone far away.
+struct World {
+  Box box;
+  std::size_t gone = 0;  ///< blocks that have left it
+};
+
+World world_of(const std::vector<PlotScene>& scenes, const PlotOptions& options) {
+  if (options.window) return {*options.window, 0};
+  World world;
   std::vector<Vec2> points;
-  for (const PlotScene& s : scenes) points.insert(points.end(), s.points.begin(), s.points.end());
-  return box_around(points);
+  for (const PlotScene& s : scenes) {
+    const std::vector<std::uint8_t> gone = gone_blocks(s);
+    const auto count = static_cast<std::size_t>(std::count(gone.begin(), gone.end(), 1));
+    if (count == 0 || 2 * count >= gone.size()) {
+      points.insert(points.end(), s.points.begin(), s.points.end());
+      continue;
+    }
+    world.gone = std::max(world.gone, count);
+    for (std::size_t i = 0; i < gone.size(); ++i) {
+      if (gone[i] != 0) continue;
+      for (const auto& edge : s.shapes[i].outline)
+        points.push_back(s.points[static_cast<std::size_t>(edge.first)]);
+    }
+  }
+  world.box = box_around(points);
+  return world;
 }
 
 struct Titles {
@@ -105,13 +141,17 @@ struct Titles {
   }
 };
 
-Titles titles_of(std::span<const Snapshot> shots, const PlotOptions& options) {
+Titles titles_of(std::span<const Snapshot> shots, const PlotOptions& options, std::size_t gone) {
   const double room = options.paper.width - 2.0 * options.paper.font;
   Canvas measure("", 1.0, 1.0, 1.0);
   std::string subtitle = options.subtitle;
   if (options.scale != 1.0) {
     subtitle += fmt::format("{}displacements drawn {:.4g} times", subtitle.empty() ? "" : "; ",
                             options.scale);
+  }
+  if (gone > 0) {
+    subtitle += fmt::format("{}{} far beyond the picture", subtitle.empty() ? "" : "; ",
+                            counted(gone, "block"));
   }
   Titles t;
   t.headings = shots.size() > 1;
@@ -172,8 +212,8 @@ class Page {
 
   Trouble draw(const std::string& path) {
     const double f = options_.paper.font;
-    const Titles titles = titles_of(shots_, options_);
-    const Box world = world_of(scenes_, options_);
+    const auto [world, gone] = world_of(scenes_, options_);
+    const Titles titles = titles_of(shots_, options_, gone);
     Surroundings room{scenes_.size(), axis_room(world, f) + 0.8 * f, titles.height(f)};
     // Lengths of arrows follow from the size of the drawings, the legend's height from what it
     // lists: laid out once without the lengths, then with the legend.

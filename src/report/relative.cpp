@@ -45,4 +45,19 @@ bool move_with(Snapshot& shot, Vec2 start) {
   return true;
 }
 
+bool move_with(Table& history, const std::string& monitor) {
+  bool found = false;
+  for (const std::string ending : {".ux", ".uy", ".vx", ".vy"}) {
+    const Column* const of = history.column(monitor + ending);
+    if (of == nullptr) continue;
+    found = true;
+    const std::vector<double> by = of->values;
+    for (Column& column : history.columns) {
+      if (!column.name.ends_with(ending)) continue;
+      for (std::size_t r = 0; r < by.size(); ++r) column.values[r] -= by[r];
+    }
+  }
+  return found;
+}
+
 }  // namespace edda

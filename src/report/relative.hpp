@@ -1,7 +1,10 @@
 // A frame as seen from a point that moves with the blocks.
 #pragma once
 
+#include <string>
+
 #include "report/plot.hpp"
+#include "results/read_table.hpp"
 
 namespace edda {
 
@@ -9,5 +12,9 @@ namespace edda {
 /// displacement of the material point that was at `start`, so that this point does not move. False
 /// where no block contains the point.
 bool move_with(Snapshot& shot, Vec2 start);
+
+/// Subtracts the displacement and velocity of a monitor from those of all monitors of a history.
+/// False where the history has no such monitor.
+bool move_with(Table& history, const std::string& monitor);
 
 }  // namespace edda

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 
 namespace edda {
@@ -107,6 +108,34 @@ Vec2 centre_of(const Grid& g, const BlockShape& shape, const std::vector<Vec2>& 
     moment += cross(p, q) / 3.0 * (p + q);
   }
   return twice == 0.0 ? base : base + moment / twice;
+}
+
+Vec2 mark_place(const Grid& g, const BlockShape& shape, const std::vector<Vec2>& points) {
+  const auto point = [&](std::int64_t p) { return points[static_cast<std::size_t>(p)]; };
+  // Distance from the outline, negative outside: an odd number of edges lies to the right inside.
+  const auto depth = [&](Vec2 at) {
+    bool inside = false;
+    double nearest = std::numeric_limits<double>::infinity();
+    for (const auto& [p, q] : shape.outline) {
+      const Vec2 a = point(p), b = point(q);
+      nearest = std::min(nearest, distance_to_segment(at, a, b));
+      if ((a.y > at.y) != (b.y > at.y) && at.x < a.x + (at.y - a.y) / (b.y - a.y) * (b.x - a.x))
+        inside = !inside;
+    }
+    return inside ? nearest : -nearest;
+  };
+  const Vec2 centre = centre_of(g, shape, points);
+  if (shape.end_cell - shape.first_cell == 1 || depth(centre) > 0.0) return centre;
+  Vec2 best = centre;
+  double deepest = -std::numeric_limits<double>::infinity();
+  for (std::size_t c = shape.first_cell; c < shape.end_cell; ++c) {
+    Vec2 middle;
+    const std::size_t from = g.begin(c), to = static_cast<std::size_t>(g.ends[c]);
+    for (std::size_t k = from; k < to; ++k)
+      middle += point(g.corners[k]) / static_cast<double>(to - from);
+    if (const double d = depth(middle); d > deepest) deepest = d, best = middle;
+  }
+  return best;
 }
 
 Follower::Follower(const Grid& grid, std::vector<Vec2> from, const std::vector<Vec2>& to)

@@ -72,6 +72,10 @@ AffineField affine_field(std::size_t count, Place place, Value value) {
 /// Area-weighted centre of a shape at the given points.
 Vec2 centre_of(const Grid& grid, const BlockShape& shape, const std::vector<Vec2>& points);
 
+/// Where marks of a shape are drawn: its centre, or, where that lies in a hole or outside, the
+/// middle of the cell whose middle is farthest from the outline.
+Vec2 mark_place(const Grid& grid, const BlockShape& shape, const std::vector<Vec2>& points);
+
 /// Carries material points along with the cells that hold them, from one place of the grid's points
 /// to another. `grid` must outlive it.
 class Follower {

@@ -223,6 +223,7 @@ static void list_chatter(Archive& a, Chatter& c) {
   a("chatter.before", c.before);
   a("chatter.looks", c.looks);
   a("chatter.rebuilds", c.rebuilds);
+  a("chatter.last", c.last);
   a("chatter.count", c.count);
   a("chatter.worst", c.worst);
   a("chatter.block_i", c.block_i);

@@ -17,6 +17,10 @@ struct InitialBalance {
   double largest = 0.0;     ///< resultant of the block with the largest one, over the mean contact
                             ///< force
   Id block = no_id;         ///< that block
+  double within = 0.0;  ///< mean resultant of the blocks that others enclose, beyond that of the
+                        ///< field of k0, over the mean contact force
+  double top = 0.0;     ///< normal stress of the ground that free faces at the top of the model
+                        ///< lack, over the mean stress
   std::vector<JointStress> joints;  ///< demand on each joint law, by row of the laws
 };
 

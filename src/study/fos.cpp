@@ -125,7 +125,7 @@ void take_rigid_limit(const Fos& fos, LimitResult& limit, bool lost, FosResult& 
 
 /// Compares the factor, or the highest one that holds where none fails, with the limits of rigid
 /// blocks. Returns whether it is beyond them.
-bool compare_with_rigid(const Model& model, const Fos& fos, const RigidLimit& found, FosResult& r) {
+bool compare_with_rigid(const Model& model, const RigidLimit& found, FosResult& r) {
   const std::optional<double> factor = r.status == FosStatus::above ? r.holds : r.factor;
   if (!factor || !found || found->largest.status != LimitEnd::found) return false;
   const LimitResult& limit = *found;
@@ -135,9 +135,8 @@ bool compare_with_rigid(const Model& model, const Fos& fos, const RigidLimit& fo
   rigid.slack = 0.005;  // joints and blocks deform before they fail
   rigid.below_most = r.holds.value_or(0.0) <= (1.0 + rigid.slack) * rigid.most;
   if (!r.factor && rigid.below_most) return false;  // the highest factor tried is no limit
-  const double near = fos.tolerance + 0.02;
-  const bool lower = *factor < (1.0 - near) * rigid.least;
-  const bool within = *factor < (1.0 - near) * rigid.most;
+  const BesideLimits beside = beside_limits(*factor, rigid.least, rigid.most);
+  const bool lower = beside == BesideLimits::below;
   const bool bolted = !model.bolts.empty() || !model.bolt_patterns.empty();
   rigid.text = fmt::format(
       "rigid limit analysis: {}; {}", limit.message,
@@ -145,8 +144,8 @@ bool compare_with_rigid(const Model& model, const Fos& fos, const RigidLimit& fo
       : lower && bolted ? "the factor is lower, since bolts count there with all their capacity, "
                           "stretched or not (docs/limit.md)"
       : lower           ? "the factor is lower than theirs (docs/limit.md)"
-      : within          ? "the factor lies between theirs"
-                        : "the factor agrees with theirs");
+      : beside == BesideLimits::between ? "the factor lies between theirs"
+                                        : "the factor agrees with theirs");
   r.rigid = std::move(rigid);
   return !r.rigid->below_most;
 }
@@ -239,7 +238,7 @@ Result<FosResult> find_factor(const Model& model, const FosOptions& options) {
   }
   add_sets(model, fos, start, options, r);
   warn_of_trials(r);
-  if (compare_with_rigid(model, fos, rigid, r)) {
+  if (compare_with_rigid(model, rigid, r)) {
     if (start.as_drawn) {
       take_rigid_limit(fos, *start.rigid, !loose_blocks(start.sim).empty(), r);
     } else {

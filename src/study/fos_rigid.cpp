@@ -52,6 +52,13 @@ double least_limit(const LimitResult& limit) {
       {limit.largest.lower, limit.without_dilation.value_or(most), limit.residual.value_or(most)});
 }
 
+BesideLimits beside_limits(double factor, double least, double most) {
+  constexpr double near = 0.02;
+  if (factor < (1.0 - near) * least) return BesideLimits::below;
+  const bool one = least >= (1.0 - near) * most && factor >= (1.0 - near) * most;
+  return one ? BesideLimits::agrees : BesideLimits::between;
+}
+
 std::optional<double> factor_below(const FosBracket& bracket, const RigidLimit& limit) {
   constexpr double worth = 0.95;
   if (!limit || limit->largest.status != LimitEnd::found) return {};

@@ -36,6 +36,11 @@ FosBracket first_bracket(const Fos& fos, const RigidLimit& rigid, const std::vec
 /// The lowest limit, of joints that slide without dilating and of those that have broken.
 double least_limit(const LimitResult& limit);
 
+/// A factor beside the lowest and the highest limit of rigid blocks. It agrees with them where all
+/// three do, within 2 %.
+enum class BesideLimits { below, between, agrees };
+BesideLimits beside_limits(double factor, double least, double most);
+
 /// Between the lowest limit of rigid blocks and the highest factor that holds, where there is room:
 /// the model may fail there, too, since how it comes to rest depends on what its joints have done.
 std::optional<double> factor_below(const FosBracket& bracket, const RigidLimit& limit);

@@ -197,6 +197,13 @@ std::string sentence(const Mechanism& m) {
   return text;
 }
 
+/// "all 50.6 m", or "7.8 m of the 9.72 m".
+std::string brittle_part(const Mechanism& m) {
+  const std::string all = fmt::format("{:.3g} m", m.brittle_length),
+                    lost = fmt::format("{:.3g} m", m.cohesion_lost_length);
+  return lost == all ? "all " + all : lost + " of the " + all;
+}
+
 }  // namespace
 
 Mechanism mechanism_of(const Simulation& before, const Simulation& after, double moving) {
@@ -255,19 +262,16 @@ void find_lost_cohesion(Mechanism& m, const Simulation& stable) {
     if (lost) m.cohesion_lost_length += f.now.length[k];
   }
   if (has_lost_cohesion(m))
-    m.text += fmt::format("; {:.3g} m of its {:.3g} m had lost their cohesion before it moved",
-                          m.cohesion_lost_length, m.brittle_length);
+    m.text +=
+        "; " + brittle_part(m) + " of its joints had already lost their cohesion before failure";
 }
 
 std::string lost_cohesion_text(const Mechanism& m) {
   if (!has_lost_cohesion(m)) return {};
   return fmt::format(
-      "{:.3g} m of {:.3g} m of the mechanism's joints had no cohesion before it moved (it was "
-      "lost, "
-      "or they opened and closed again; residual.cohesion is lower): with residual.cohesion = "
-      "cohesion "
-      "the factor may be higher",
-      m.cohesion_lost_length, m.brittle_length);
+      "{} of joints in the mechanism had already lost their cohesion before failure. If cohesion "
+      "should survive, set residual.cohesion",
+      brittle_part(m));
 }
 
 std::string mechanism_csv(const Simulation& sim, const Mechanism& mechanism) {

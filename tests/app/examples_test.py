@@ -19,8 +19,9 @@ class Examples(Program):
         done = self.edda("run", f"{name}.toml", "-o", out, "--quiet", *args)
         self.assertEqual(done.returncode, 0, done.stderr)
         summary = json.loads((self.dir / out / "summary.json").read_text())
+        # As it is shipped, a model passes all of its checks.
         self.assertEqual([c for c in summary["checks"] if not c["pass"] and
-                          ("overlap" in c["name"] or "chattered" in c["name"])], [])
+                          (not args or "overlap" in c["name"] or "chattered" in c["name"])], [])
         return summary, self.dir / out
 
     def rows(self, path):
@@ -52,6 +53,12 @@ class Examples(Program):
         last, without = stages[-1], self.rows(bare / "stages.csv")[-1]
         for closure in ("span.convergence", "height.convergence"):
             self.assertTrue(0 < float(last[closure]) < float(without[closure]), closure)
+
+    def test_slope_slides_unless_its_beds_are_rough(self):
+        _, folder = self.ran("slope")
+        self.assertLess(self.moved(folder, "crest")[0], -3.0)
+        _, folder = self.ran("slope", "--set", "joints.bedding.friction_angle=45", out="rough")
+        self.assertLess(math.hypot(*self.moved(folder, "crest")), 0.01)
 
     def test_slope_has_a_factor_of_safety_below_one(self):
         factor, folder = self.factor("slope", "--set", "fos.bracket=[0.5, 0.7]", "--set", "fos.tolerance=0.03")
@@ -97,7 +104,8 @@ class Examples(Program):
             self.assertLess(abs(float(row["axial_force"]) / force - 1.0), 1e-3)
         loose, folder = self.ran("roof-wedge", "--set", "bolt=[]", out="loose")
         self.assertEqual(loose["status"], "collapsed")
-        self.assertLess(self.moved(folder, "wedge")[1], -1.0)
+        # The run ends when it has left its place: by a tenth of the square root of its 4.8 m2.
+        self.assertLess(self.moved(folder, "wedge")[1], -0.2)
 
     def test_newmark_slides_by_the_closed_form(self):
         _, folder = self.ran("newmark")

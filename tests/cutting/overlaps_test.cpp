@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <random>
 
 #include "cutting/checks.hpp"
@@ -90,6 +91,46 @@ TEST(Overlaps, AreAllowedToAThousandthOfTheSmaller) {
     EXPECT_TRUE(build_polygons(scaled(turned(let_in(0.99e-3), angle), 100.0)).ok());
     EXPECT_FALSE(build_polygons(scaled(turned(let_in(1.01e-3), angle), 100.0)).ok());
   }
+}
+
+/// A tilted wall of bricks, its coordinates rounded to some decimals: blocks that touch, written
+/// down.
+Model rounded_wall(int decimals) {
+  Model model;
+  const double unit = std::pow(10.0, -decimals);
+  for (int row = 0; row < 6; ++row) {
+    for (int i = 0; i < 8; ++i) {
+      const double x = 0.4 * i + 0.2 * (row % 2), y = 0.3 * row;
+      Ring ring = box(x, y, x + 0.4, y + 0.3);
+      for (Vec2& p : ring) {
+        p = rotated(p, 0.2);
+        p = {unit * std::round(p.x / unit), unit * std::round(p.y / unit)};
+      }
+      add_block(model, ring);
+    }
+  }
+  return model;
+}
+
+TEST(Overlaps, OfRoundedCoordinatesAreNoFault) {
+  for (const int decimals : {3, 4, 5, 6, 9}) {
+    const auto result = build_polygons(rounded_wall(decimals));
+    ASSERT_TRUE(result.ok()) << decimals << ' ' << to_string(result.faults()[0]);
+    EXPECT_NEAR(result.value().report.rounding, 1.5 * std::pow(10.0, -decimals), 1e-12);
+  }
+  // What is drawn into each other by more is one, to however few digits.
+  Model model = rounded_wall(3);
+  for (Vec2& p : model.blocks[20].polygon) p.x += 0.005;
+  EXPECT_FALSE(build_polygons(model).ok());
+}
+
+/// Numbers that look alike do not tell which is larger.
+TEST(Overlaps, AreToldApartFromWhatIsAllowed) {
+  const auto result = build_polygons(let_in(1.00000003e-3));
+  ASSERT_FALSE(result.ok());
+  EXPECT_NE(result.faults()[0].problem.find("by 0.00100000003 m, more than 0.001 m"),
+            std::string::npos)
+      << result.faults()[0].problem;
 }
 
 TEST(Overlaps, NameBothBlocksAndTheDepth) {

@@ -276,7 +276,7 @@ TEST(Imports, UnitsThatADrawingSaysAreComparedAndNotTaken) {
   Model model = with_joints(domain_model(box(0, 0, 10, 10), 1e-8));
   model.imports.push_back(import_of(file));
   EXPECT_EQ(only_warning(model).substr(0, 72),
-            "import.0.units: t.dxf says that it is drawn in mm ($INSUNITS), and is re");
+            "import.0.units: t.dxf gives its unit as mm ($INSUNITS), but it is read a");
   EXPECT_EQ(build_polygons(model).value().blocks.size(), 2U);
   model.imports[0].size_given = true;
   EXPECT_EQ(only_warning(model), "");

@@ -49,6 +49,8 @@ TEST(BadModel, NamesAndReferences) {
              "name one of \"smooth\", \"rough\""),
       broken("which joint, with a contact table", "[joints.rough]",
              "[contact]\nnormal_stiffness = 1\n" + smooth, 7, "contact.joint", "name one of"),
+      broken("which edges name no joint", "[joints.rough]", smooth, 1, "contact.joint",
+             "no joint is named for the edges of block.floor (line "),
   });
   expect_faults({"unknown joint where none is defined",
                  "[materials.rock]\ndensity = 1\nyoung = 1\npoisson = 0\n[[block]]\n"

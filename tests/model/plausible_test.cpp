@@ -60,6 +60,11 @@ TEST(Plausible, OneWarningPerQuantity) {
 TEST(Plausible, Joints) {
   expect_warning(base_with("friction_angle = 30.0", "friction_angle = 30.0\nkn = 50"),
                  "joints.rough.kn", "write \"50 GPa/m\"");
+  expect_warning(base_with("friction_angle = 30.0", "friction_angle = 30.0\nkn = 1e10\nks = 1e5"),
+                 "joints.rough.ks", "is 1e-05 of kn = 1e+10 Pa/m");
+  EXPECT_TRUE(
+      warnings_of(base_with("friction_angle = 30.0", "friction_angle = 30.0\nkn = 1e10\nks = 1e8"))
+          .empty());
   expect_warning(base_with("friction_angle = 30.0", "friction_angle = 30.0\ncohesion = 0.1"),
                  "joints.rough.cohesion", "write \"0.1 MPa\"");
   expect_warning(base_with("friction_angle = 30.0", "friction_angle = 30.0\ncohesion = 5"),

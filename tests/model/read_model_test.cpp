@@ -95,6 +95,33 @@ TEST(ReadModel, Defaults) {
   EXPECT_EQ(read(base_with("every = 0.01", "")).output.every, 0.1 / 20);
 }
 
+/// Rows and frames are for what is run: a record is resolved, and stages until equilibrium, which
+/// end long before their time, do not thin out those of the others.
+TEST(ReadModel, RowsResolveWhatHappens) {
+  const std::string model =
+      "[materials.rock]\ndensity = 2700\nyoung = 2e10\npoisson = 0.25\n[joints.j]\n"
+      "friction_angle = 30\n[[block]]\nfixed = true\npolygon = [[0, 0], [1, 0], [1, 1], [0, 1]]\n"
+      "[[block]]\npolygon = [[0, 1], [1, 1], [1, 2], [0, 2]]\n";
+  const auto output = [&](const std::string& more) {
+    const Result<Model> read = read_model_text(model + more, "m.toml");
+    EXPECT_TRUE(read.ok());
+    return read.value().output;
+  };
+  const std::string rest = "[[stage]]\nuntil = 'equilibrium'\n",
+                    quake = "[[stage]]\nduration = 12\n",
+                    sine = "[[shaking]]\nacceleration = { amplitude = 1, frequency = 5 }\n";
+  EXPECT_DOUBLE_EQ(output(quake).every, 0.6);
+  EXPECT_DOUBLE_EQ(output(rest + quake).every, 0.6);
+  EXPECT_DOUBLE_EQ(output(rest + rest + rest + quake).history_every, 0.06);
+  EXPECT_DOUBLE_EQ(output(rest + quake + sine).history_every, 0.01);
+  EXPECT_DOUBLE_EQ(output(rest + quake + sine).every, 0.6);
+  EXPECT_DOUBLE_EQ(output(rest).every, 0.5);
+  // Ten times as many frames as without the short stage, not ten thousand.
+  EXPECT_DOUBLE_EQ(output(rest + "[[stage]]\nduration = 0.01\n").every, 0.1 * 10.01 / 20.0);
+  // A record of 0.01 s, and one so long that rows would fill the disk.
+  EXPECT_DOUBLE_EQ(output("[solver]\nduration = 10000\n" + sine).history_every, 0.5);
+}
+
 TEST(ReadModel, PlacesAndKeys) {
   const Model m = read(base_model);
   EXPECT_EQ(m.blocks[0].where.key, "block.floor");

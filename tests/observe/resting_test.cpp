@@ -63,6 +63,57 @@ TEST(Resting, GroupsThatTouchNothingHeld) {
       said_of(head + "[[load]]\npoint = [0.5, 0.9]\nforce = [0, 3e4]\n" + block(0, 0)).empty());
 }
 
+/// Dashpots carry no static load, unless they have taken one over from an initial stress.
+TEST(Resting, NothingRestsOnDashpotsAlone) {
+  const auto sinks = [](const std::string& more, const std::string& first = {}) {
+    const PreparedRun run = prepared(
+        first +
+        "[materials.rock]\ndensity = 2600\nyoung = 1e9\npoisson = 0.2\n[joints.j]\n"
+        "friction_angle = 30\n[domain]\noutline = [[0, 0], [10, 0], [10, 10], [0, 10]]\n"
+        "[[joint_set]]\nangle = 0\nspacing = 2.5\norigin = [0, 1]\n[[boundary]]\nname = 'base'\n"
+        "sides = ['bottom']\ntype = 'viscous'\n" +
+        more);
+    const bool said =
+        std::any_of(run.warnings.begin(), run.warnings.end(), [](const std::string& warning) {
+          return warning.find("on a viscous boundary alone") != std::string::npos;
+        });
+    EXPECT_EQ(said, run.on_nothing > 0);
+    return said;
+  };
+  const std::string run = "[solver]\nduration = 1\n",
+                    roller = "[[boundary]]\nsides = ['left', 'right']\ntype = 'roller'\n",
+                    stress = "[initial_stress]\nk0 = 0.5\nsurface_y = 10\n";
+  EXPECT_TRUE(sinks(run));
+  EXPECT_TRUE(sinks(roller + run));
+  EXPECT_FALSE(sinks(run, "gravity = [0, 0]\n")) << "a wave alone needs no support";
+  EXPECT_FALSE(sinks(roller + stress + run));
+  EXPECT_FALSE(sinks("[[boundary]]\nsides = ['left']\ntype = 'fixed'\n" + run));
+  EXPECT_FALSE(
+      sinks("[[boundary]]\nname = 'held'\nsides = ['bottom']\ntype = 'fixed'\n"
+            "[[stage]]\nuntil = 'equilibrium'\n[[stage]]\nduration = 1\n"
+            "activate = ['base']\ndeactivate = ['held']\n"));
+}
+
+/// A boundary that is taken away leaves the weight to dashpots, unless they begin where it ends.
+TEST(Resting, DashpotsTakeOverOnlyWhereTheyReplaceASupport) {
+  const auto told = [](const std::string& activate, const std::string& deactivate) {
+    const PreparedRun run = prepared(
+        "[materials.rock]\ndensity = 2600\nyoung = 1e9\npoisson = 0.2\n[joints.j]\n"
+        "friction_angle = 30\n[domain]\noutline = [[0, 0], [10, 0], [10, 10], [0, 10]]\n"
+        "[[joint_set]]\nangle = 0\nspacing = 2.5\norigin = [0, 1]\n[[boundary]]\nname = 'base'\n"
+        "sides = ['bottom']\ntype = 'viscous'\n[[boundary]]\nname = 'held'\nsides = ['bottom']\n"
+        "[[stage]]\nuntil = 'equilibrium'\n[[stage]]\nduration = 1\nactivate = [" +
+        activate + "]\ndeactivate = [" + deactivate + "]\n");
+    EXPECT_EQ(run.on_nothing, 0u);
+    return std::any_of(run.warnings.begin(), run.warnings.end(), [](const std::string& warning) {
+      return warning.starts_with("in stage 2 nothing but a viscous boundary");
+    });
+  };
+  EXPECT_TRUE(told("", "'held'"));
+  EXPECT_FALSE(told("'base'", "'held'"));
+  EXPECT_FALSE(told("'base'", ""));
+}
+
 TEST(Resting, IsACheckThatDoesNotPass) {
   const auto failed = [](const testing::Ran& r) {
     return std::count_if(

@@ -7,6 +7,7 @@
 #include "report/history_plot.hpp"
 #include "report/peaks.hpp"
 #include "report/picture_reading.hpp"
+#include "report/relative.hpp"
 #include "scratch_folder.hpp"
 
 namespace edda::history_test {
@@ -162,6 +163,19 @@ TEST(HistoryPlot, ShowsTheWindowThatIsAskedFor) {
   picture.range.reset();
   picture.span = Vec2{2.5, 3.5};
   EXPECT_LT(first_line(drawn(picture))[0].y, first_line(drawn(picture))[1].y);
+}
+
+TEST(History, IsDrawnRelativeToAMonitor) {
+  Table table = small_history();
+  table.columns.push_back({"Q.ux", {0.5, 0.5, 1.0, 2.0, 2.0}});
+  Table other = table;
+  EXPECT_FALSE(move_with(other, "R"));
+  EXPECT_EQ(other.column("P.ux")->values, table.column("P.ux")->values);
+  EXPECT_TRUE(move_with(other, "Q"));
+  EXPECT_EQ(other.column("P.ux")->values, (std::vector<double>{-0.5, 0.5, 3.0, 0.0, 1.0}));
+  EXPECT_EQ(other.column("Q.ux")->values, std::vector<double>(5, 0.0));
+  EXPECT_EQ(other.column("P.vx")->values, table.column("P.vx")->values);  // Q has none
+  EXPECT_EQ(other.column("kinetic")->values, table.column("kinetic")->values);
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "report/picture_reading.hpp"
@@ -48,6 +49,18 @@ TEST(Plot, ACrumbDoesNotDarkenAllOthers) {
   EXPECT_FALSE(text_of(whole, "(mm), up to 167"));
   EXPECT_TRUE(text_of(whole, "100 mm"));
   EXPECT_FALSE(looks_like(block_fills(whole, 61)[59], fills[59]));
+}
+
+/// 167 m beside a bar in mm, 0.8 m beside one in um: the far value has a unit of its own.
+TEST(Plot, AValueFarBeyondTheBarHasItsOwnUnit) {
+  for (const auto& [by, said] : {std::pair{1e3, "167 m"}, {1e2, "16.7 m"}, {5.0, "835"}}) {
+    Snapshot shot = crumb();
+    std::vector<double>& u = shot.blocks.cell_fields[1].values;
+    u[u.size() - 2] *= by;
+    shot.field = shown_field("displacement", shot.blocks, nullptr).value();
+    const std::string svg = drawn({&shot, 1}, {});
+    EXPECT_TRUE(text_of(svg, std::string("(mm), up to ") + said)) << said;
+  }
 }
 
 TEST(Plot, ColoursOfBothSignsAreWhiteAtNothing) {

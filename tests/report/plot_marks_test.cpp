@@ -86,17 +86,30 @@ TEST(Plot, MonitorsStandWhereTheirBlockHasGone) {
   EXPECT_NEAR((points_of(marks[0])[0].x - radius - x2) / (x4 - x2), -0.75, 1e-3);
 }
 
-TEST(Plot, NamesOfMonitorsDoNotOverlap) {
+/// A monitor on the surface, which had settled a little before displacements were reset.
+TEST(Plot, MonitorsStandOnASurfaceThatHasSettled) {
   const Snapshot shot = snapshot("none");
   PlotOptions options;
-  for (int k = 0; k < 5; ++k) options.monitors.push_back({"name", {0.001 * k, 0.5}});
+  options.monitors = {{"high", {0.5, 1.0001}}, {"beyond", {0.5, 1.2}}};
   const std::string svg = drawn({&shot, 1}, options);
-  const std::vector<Vec2> names = all_texts(svg, "name");
-  ASSERT_EQ(names.size(), 5u);
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    for (std::size_t j = 0; j < i; ++j) {
-      const Vec2 d = names[i] - names[j];
-      EXPECT_TRUE(std::abs(d.y) >= 6.5 || std::abs(d.x) >= 16.0) << i << " " << j;
+  EXPECT_TRUE(text_of(svg, "high"));
+  EXPECT_FALSE(text_of(svg, "beyond"));
+}
+
+TEST(Plot, NamesOfMonitorsDoNotOverlap) {
+  const Snapshot shot = snapshot("none");
+  for (const int count : {5, 12, 24}) {
+    PlotOptions options;
+    for (int k = 0; k < count; ++k) options.monitors.push_back({"name", {0.001 * k, 0.5}});
+    const std::string svg = drawn({&shot, 1}, options);
+    const std::vector<Vec2> names = all_texts(svg, "name");
+    ASSERT_EQ(names.size(), static_cast<std::size_t>(count));
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      for (std::size_t j = 0; j < i; ++j) {
+        const Vec2 d = names[i] - names[j];
+        EXPECT_TRUE(std::abs(d.y) >= 6.5 || std::abs(d.x) >= 16.0)
+            << count << ": " << i << " " << j;
+      }
     }
   }
 }

@@ -14,6 +14,7 @@
 namespace edda::plot_test {
 namespace {
 
+using testing::crumb;
 using testing::drawn;
 using testing::snapshot;
 
@@ -145,6 +146,25 @@ TEST(Plot, HeadingsOfLegendsBelowStayOnThePage) {
   ASSERT_TRUE(text_of(svg, "most compressive")) << svg;
   EXPECT_LT(text_of(svg, "most compressive")->x, 40.0);
   EXPECT_GT(text_of(svg, "stress of all")->y, text_of(svg, "most compressive")->y);
+}
+
+/// A crumb that falls without end leaves the picture, which shows the others as large as before.
+TEST(Plot, WhatFallsFarAwayLeavesThePicture) {
+  const auto fallen = [](double by) {
+    Snapshot shot = crumb();
+    std::vector<double>& all = shot.blocks.points;
+    Field u{"displacement", 3, std::vector<double>(all.size(), 0.0), {}, false};
+    for (std::size_t k = all.size() - 12; k < all.size(); k += 3) {
+      all[k + 1] -= by;
+      u.values[k + 1] = -by;
+    }
+    shot.blocks.point_fields = {u};
+    return drawn({&shot, 1}, {});
+  };
+  const auto places = [](const std::string& svg) { return all_texts(svg, "0"); };
+  EXPECT_FALSE(text_of(fallen(50.0), "1 block far beyond the picture"));
+  EXPECT_TRUE(text_of(fallen(100.0), "1 block far beyond the picture"));
+  EXPECT_EQ(places(fallen(100.0)), places(fallen(1e6)));
 }
 
 }  // namespace

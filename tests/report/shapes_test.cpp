@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "report/two_blocks.hpp"
 
 namespace edda::shapes_test {
@@ -36,6 +39,31 @@ TEST(Shapes, AHoleIsARingOfItsOwn) {
   ASSERT_EQ(shapes[0].rings.size(), 2u);
   EXPECT_EQ(shapes[0].rings[0].size(), 4u);
   EXPECT_EQ(shapes[0].rings[1].size(), 4u);
+  // The centre is in the hole, marks of the block are in the rock.
+  const std::vector<Vec2> points = drawn_points(g, 1.0);
+  const Vec2 at = mark_place(g, shapes[0], points);
+  EXPECT_GT(std::max(std::abs(at.x - 1.5), std::abs(at.y - 1.5)), 0.6);
+  EXPECT_LT(std::max(std::abs(at.x - 1.5), std::abs(at.y - 1.5)), 1.4);
+}
+
+TEST(Shapes, MarksLieInTheBlock) {
+  // An L of two arms: its centre lies outside the thin ones.
+  for (const double wide : {0.2, 0.5, 1.0, 1.6}) {
+    Grid g;
+    g.points = {0, 0, 0, 2, 0, 0, 2, wide, 0, wide, wide, 0, wide, 2, 0, 0, 2, 0};
+    g.corners = {0, 1, 2, 0, 2, 3, 0, 3, 4, 0, 4, 5};
+    for (int c = 1; c <= 4; ++c) {
+      g.ends.push_back(3 * c);
+      g.types.push_back(cell_type::triangle);
+    }
+    g.cell_fields = {{"id", 1, std::vector<double>(4, 0.0), {}, true}};
+    const auto shapes = block_shapes(g);
+    const Vec2 at = mark_place(g, shapes[0], drawn_points(g, 1.0));
+    EXPECT_LT(std::min(at.x, at.y), wide) << wide;
+    EXPECT_GT(std::min(at.x, at.y), 0.0) << wide;
+    const Vec2 centre = centre_of(g, shapes[0], drawn_points(g, 1.0));
+    EXPECT_TRUE(centre.x >= wide || at == centre) << wide;
+  }
 }
 
 TEST(Shapes, MaterialPointsAreFollowed) {

@@ -183,8 +183,10 @@ polygon = [[-9, -1], [9, -1], [9, 0], [-9, 0]]
     }
     return false;
   };
-  EXPECT_TRUE(warned({}, "gravity acts at once"));
-  EXPECT_FALSE(warned({"solver.damping.local=0.8"}, "gravity acts at once"));
+  const std::string still = "block.flyer.velocity=[0, 0]", rests = "block.flyer.angular_velocity=0";
+  EXPECT_TRUE(warned({still, rests}, "gravity acts at once"));
+  EXPECT_FALSE(warned({}, "gravity acts at once")) << "it is meant to move";
+  EXPECT_FALSE(warned({still, rests, "solver.damping.local=0.8"}, "gravity acts at once"));
   EXPECT_FALSE(warned({}, "springs so"));
   EXPECT_TRUE(warned({"contact.normal_stiffness=1e6"}, "so soft"));
   // A stiffness that the joint gives is used as it is.

@@ -8,6 +8,7 @@
 
 #include "run/prepared.hpp"
 #include "run/run_model.hpp"
+#include "study/fos_rigid.hpp"
 #include "study/limit_analysis.hpp"
 #include "study/sliding_block.hpp"
 
@@ -50,6 +51,19 @@ double factor_of_two_wedges() {
     (left_over(std::atan(std::tan(35.0 * degree) / middle)) > 0.0 ? low : high) = middle;
   }
   return low;
+}
+
+/// 2 % are the accuracy of a search beside the limit; where the limits differ by more, a factor
+/// between them agrees with neither.
+TEST(RigidLimit, AgreesWithAFactorOnlyWithinTwoPercent) {
+  for (const double most : {0.3, 1.0, 7.0}) {
+    EXPECT_EQ(beside_limits(0.985 * most, most, most), BesideLimits::agrees);
+    EXPECT_EQ(beside_limits(1.004 * most, 0.99 * most, most), BesideLimits::agrees);
+    EXPECT_EQ(beside_limits(0.975 * most, most, most), BesideLimits::below);
+    EXPECT_EQ(beside_limits(0.99 * most, 0.9 * most, most), BesideLimits::between);
+    EXPECT_EQ(beside_limits(0.975 * most, 0.985 * most, most), BesideLimits::between);
+    EXPECT_EQ(beside_limits(0.95 * most, 0.97 * most, most), BesideLimits::below);
+  }
 }
 
 TEST(RigidLimit, EndsTrialsWhereATipHoldsWhatMoves) {

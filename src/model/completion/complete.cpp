@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
+#include <limits>
 #include <map>
 
 #include "model/table/nearest.hpp"
@@ -88,43 +90,56 @@ void complete_material_references(const Value& root, Reading& reading) {
 /// Rough numbers of blocks: none, one or several.
 struct BlockCount {
   double all = 0.0;
-  double without_law = 0.0;  ///< blocks whose edges name no joint
+  double without_law = 0.0;           ///< blocks whose edges name no joint
+  std::vector<const Where*> unnamed;  ///< the tables of these edges
+  /// Counts the blocks of a table whose edges have this joint.
+  void add(double blocks, Index joint, const Where& where) {
+    all += blocks;
+    if (joint != none) return;
+    without_law += blocks;
+    unnamed.push_back(&where);
+  }
 };
 
 BlockCount count_blocks(const Model& model) {
   BlockCount count;
-  const auto add = [&](double blocks, double without_law) {
-    count.all += blocks;
-    count.without_law += without_law;
+  for (const BlockInput& block : model.blocks) count.add(1.0, block.joint, block.where);
+  for (const BrickWall& wall : model.walls)
+    count.add(static_cast<double>(wall.columns) * wall.rows, wall.joint, wall.where);
+  for (const Arch& arch : model.arches) count.add(arch.count, arch.joint, arch.where);
+  for (const Import& import : model.imports) {
+    if (!model.domain) count.add(2.0, import.joint, import.where);
+  }
+  if (!model.domain) return count;
+  const bool is_named = model.domain->joint != none;
+  const std::size_t before = count.unnamed.size();
+  const auto look = [&](const auto& cut) {
+    if (cut.joint == none && !is_named) count.unnamed.push_back(&cut.where);
   };
-  for (const BlockInput& block : model.blocks) add(1.0, block.joint == none ? 1.0 : 0.0);
-  for (const BrickWall& wall : model.walls) {
-    const double bricks = static_cast<double>(wall.columns) * wall.rows;
-    add(bricks, wall.joint == none ? bricks : 0.0);
-  }
-  for (const Arch& arch : model.arches) {
-    add(arch.count, arch.joint == none ? arch.count : 0.0);
-  }
-  if (!model.domain && !model.imports.empty()) {
-    const bool unnamed = std::any_of(model.imports.begin(), model.imports.end(),
-                                     [](const Import& import) { return import.joint == none; });
-    add(2.0, unnamed ? 2.0 : 0.0);
-  }
-  if (model.domain) {
-    const auto names_none = [](const auto& cut) { return cut.joint == none; };
-    const bool cut = !model.joint_sets.empty() || !model.traces.empty() ||
-                     !model.networks.empty() || model.voronoi || !model.imports.empty() ||
-                     !model.regions.empty();
-    const auto any_unnamed = [&](const auto& items) {
-      return std::any_of(items.begin(), items.end(), names_none);
-    };
-    const bool unnamed = any_unnamed(model.joint_sets) || any_unnamed(model.traces) ||
-                         any_unnamed(model.networks) || any_unnamed(model.imports) ||
-                         (model.voronoi && names_none(*model.voronoi));
-    const double without_law = model.domain->joint != none ? 0.0 : unnamed ? 2.0 : 1.0;
-    add(cut ? 2.0 : 1.0, without_law);
-  }
+  std::for_each(model.joint_sets.begin(), model.joint_sets.end(), look);
+  std::for_each(model.traces.begin(), model.traces.end(), look);
+  std::for_each(model.networks.begin(), model.networks.end(), look);
+  std::for_each(model.imports.begin(), model.imports.end(), look);
+  if (model.voronoi) look(*model.voronoi);
+  const bool unnamed = count.unnamed.size() > before;
+  const bool cut = !model.joint_sets.empty() || !model.traces.empty() || !model.networks.empty() ||
+                   model.voronoi || !model.imports.empty() || !model.regions.empty();
+  count.all += cut ? 2.0 : 1.0;
+  if (!is_named) count.without_law += unnamed ? 2.0 : 1.0;
+  if (!is_named && !unnamed) count.unnamed.push_back(&model.domain->where);  // its outline
   return count;
+}
+
+/// "block.0 (line 8), joint_set.beds (line 20) and 3 more".
+std::string tables_text(const std::vector<const Where*>& tables) {
+  constexpr std::size_t most = 5;
+  std::string text;
+  for (std::size_t q = 0; q < std::min(most, tables.size()); ++q) {
+    text += q == 0 ? "" : ", ";
+    text += tables[q]->key;
+    if (tables[q]->line > 0) text += fmt::format(" (line {})", tables[q]->line);
+  }
+  return tables.size() > most ? text + fmt::format(" and {} more", tables.size() - most) : text;
 }
 
 /// A contact between edges that name no joint needs a law. Where the name of a joint is wrong, this
@@ -140,9 +155,12 @@ void check_laws(const Value& root, Reading& reading, bool joints_are_faulty) {
     std::vector<std::string_view> names;
     for (const JointLaw& law : model.joints) names.push_back(law.name);
     const Value* contact = find(&root, "contact");
-    add_fault(reading, contact == nullptr ? Place{1, 1, false} : contact->place, "contact.joint",
-              "is missing, and some edges name no joint",
-              "several are defined, name one of " + quoted_list(names));
+    add_fault(
+        reading, contact == nullptr ? Place{1, 1, false} : contact->place, "contact.joint",
+        "is missing, and no joint is named for the edges of " + tables_text(count.unnamed),
+        "give each its joint, or contact.joint for all of them: several are defined, name one "
+        "of " +
+            quoted_list(names));
   }
 }
 
@@ -227,21 +245,47 @@ void check_solver(const Value& root, Reading& reading) {
   }
 }
 
-/// A default of duration / `parts` (0 where no duration is given), and a fault where there would be
-/// more than `most` rows.
+/// The shortest mean interval of the records of ground motions and of histories of many rows, or a
+/// twentieth of the period of a sine, s.
+double finest_record(const Model& model) {
+  double finest = std::numeric_limits<double>::infinity();
+  const auto look = [&](const std::vector<double>& time) {
+    constexpr std::size_t many = 20;
+    if (time.size() > many)
+      finest =
+          std::min(finest, (time.back() - time.front()) / static_cast<double>(time.size() - 1));
+  };
+  for (const Shaking& shaking : model.shakings) {
+    look(shaking.record.time);
+    const double frequency = shaking.acceleration.frequency.value_or(0.0);
+    if (frequency > 0.0) finest = std::min(finest, 0.05 / frequency);
+  }
+  for (const Load& load : model.loads) look(load.factor.time);
+  for (const Boundary& boundary : model.boundaries) look(boundary.factor.time);
+  // Without the rounding of the times, so that rows are at times of few digits.
+  return std::isfinite(finest) ? std::strtod(fmt::format("{:.9g}", finest).c_str(), nullptr)
+                               : finest;
+}
+
+/// A default of duration / `parts` (0 where no duration is given), or `finer`, and a fault where
+/// there would be more than `most` rows. Stages until equilibrium and ramps end before their time,
+/// and have rows of their own (output.settling): where there are others, the duration is that of
+/// these, as long as this makes at most ten times as many rows.
 void complete_interval(const Value& root, const char* key, double& interval, double parts,
-                       double most, Reading& reading) {
+                       double finer, double most, Reading& reading) {
   const Value* value = find(find(&root, "output"), key);
-  // How long a ramp takes is not known, nor a stage without a duration: each counts as 10 s at
-  // most.
   const auto& stages = reading.model.stages;
-  double duration = stages.empty() ? reading.model.solver.duration : 0.0;
-  for (std::size_t i = 0; i < stages.size(); ++i) {
-    const bool known = !stages[i].ramp && given(element(root, "stage", i), "duration");
-    duration += known ? stages[i].duration : std::min(stages[i].duration, Stage{}.duration);
+  double duration = stages.empty() ? reading.model.solver.duration : 0.0, timed = 0.0;
+  for (const Stage& stage : stages) {
+    const bool known = !stage.ramp && stage.until == StageEnd::time;
+    if (known) timed += stage.duration;
+    duration += known ? stage.duration : std::min(stage.duration, Stage{}.duration);
   }
   if (value == nullptr) {
-    interval = duration > 0.0 ? fitted(duration / parts) : 0.0;
+    constexpr double most_parts = 20000.0;
+    const double spread = timed > 0.0 ? std::max(timed, 0.1 * duration) : duration;
+    interval = std::min(spread / parts, std::max(finer, duration / most_parts));
+    interval = duration > 0.0 ? fitted(interval) : 0.0;
   } else if (interval > 0.0 && duration / interval > most) {
     add_fault(reading, value->place, std::string("output.") + key,
               fmt::format("would write {:.1e} times, more than {:.0e}", duration / interval, most),
@@ -304,8 +348,10 @@ void complete(const Value& root, Reading& reading) {
   check_solver(root, reading);
   complete_fos(root, reading);
   complete_points(root, reading);
-  complete_interval(root, "every", model.output.every, 20.0, 1e5, reading);
-  complete_interval(root, "history_every", model.output.history_every, 200.0, 1e7, reading);
+  complete_interval(root, "every", model.output.every, 20.0,
+                    std::numeric_limits<double>::infinity(), 1e5, reading);
+  complete_interval(root, "history_every", model.output.history_every, 200.0, finest_record(model),
+                    1e7, reading);
   const Value* output = find(&root, "output");
   if (find(output, "settling") == nullptr)
     model.output.settling =

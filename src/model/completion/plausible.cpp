@@ -189,11 +189,19 @@ std::optional<double> most_tension(const JointLaw& law) {
 void check_joints(const Model& model, std::vector<std::string>& warnings) {
   constexpr double least_strength = 1e3;  // Pa
   constexpr double right_angle = 0.5 * std::numbers::pi;
-  Doubts stiffness, walls, strength, angle, tension;
+  Doubts stiffness, shear, walls, strength, angle, tension;
   for (const JointLaw& law : model.joints) {
     const std::string& key = law.where.key;
     if (law.kn && *law.kn < 1e6) {
       stiffness.add(low(key + ".kn", *law.kn, "Pa/m", "a joint", "Pa/m", 1e8));
+    }
+    constexpr double least_ratio = 1e-3;
+    if (law.kn && law.ks && *law.ks < least_ratio * *law.kn) {
+      shear.add(fmt::format(
+          "{0}.ks: {1:g} Pa/m is {2:.2g} of kn = {3:g} Pa/m: the joint slides by {4:.2g} m under a "
+          "shear stress of 100 kPa before friction acts in full: measured joints have 0.01 to 1 "
+          "times kn",
+          key, *law.ks, *law.ks / *law.kn, *law.kn, 1e5 / *law.ks));
     }
     if (law.jcs && *law.jcs < 1e4) {
       walls.add(low(key + ".jcs", *law.jcs, "Pa", "rock", "Pa", 1e6));
@@ -221,7 +229,7 @@ void check_joints(const Model& model, std::vector<std::string>& warnings) {
     look_at_angle("friction_angle", law.peak.friction_angle);
     look_at_angle("residual_angle", law.residual_angle.value_or(0.0));
   }
-  for (const Doubts* doubts : {&stiffness, &walls, &strength, &angle, &tension})
+  for (const Doubts* doubts : {&stiffness, &shear, &walls, &strength, &angle, &tension})
     doubts->report(warnings);
 }
 

@@ -1,0 +1,88 @@
+// What an initial stress lacks to equilibrium: behind free faces it is to be expected, elsewhere it
+// is a mistake.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "observe/initial_stress_report.hpp"
+#include "run/prepared.hpp"
+
+namespace edda::initial_balance_test {
+namespace {
+
+struct Slope {
+  std::string stress = "k0 = 0.7\nsurface_y = 30";
+  double toe = 20.0, crest = 35.0;
+  std::string more = {};
+};
+
+PreparedRun prepared(const Slope& slope, const char* first = "[[stage]]\nuntil = 'equilibrium'\n") {
+  const auto x = [](double value) { return std::to_string(value); };
+  return testing::prepared(
+      "[materials.rock]\nunit_weight = '26 kN/m3'\nyoung = 5e9\npoisson = 0.25\n[joints.j]\n"
+      "friction_angle = 40\n[domain]\noutline = [[0, 0], [60, 0], [60, 30], [" +
+      x(slope.crest) + ", 30], [" + x(slope.toe) +
+      ", 10], [0, 10]]\n[[joint_set]]\nangle = 10\nspacing = 3\n[[joint_set]]\nangle = 85\n"
+      "spacing = 3\n[initial_stress]\n" +
+      slope.stress +
+      "\n[[boundary]]\nsides = ['left', 'right']\ntype = 'roller'\n[[boundary]]\nsides = "
+      "['bottom']\n" +
+      slope.more + first);
+}
+
+/// The names of the checks that do not hold.
+std::vector<std::string> failed(const Slope& slope) {
+  const PreparedRun run = prepared(slope);
+  std::vector<Check> checks;
+  add_initial_checks(run.sim, checks);
+  EXPECT_GT(run.sim.accounts.initial->unbalanced, 1e-3) << "a free face is unbalanced";
+  std::vector<std::string> names;
+  for (const Check& check : checks) {
+    if (!check.pass) names.push_back(check.name);
+  }
+  return names;
+}
+
+using Names = std::vector<std::string>;
+
+TEST(InitialBalance, ASlopeIsNoMistake) {
+  for (const double crest : {20.0, 24.0, 35.0, 50.0}) {
+    for (const char* stress :
+         {"k0 = 0.7\nsurface_y = 30", "k0 = 1.5\nsurface_y = 30", "k0 = 0.5\nsurface = 'outline'",
+          "stress = [0, 0, 0]\nat_y = 30\ngradient = [18e3, 26e3, 0]"}) {
+      EXPECT_EQ(failed({stress, 20.0, crest, {}}), Names{}) << stress << ' ' << crest;
+    }
+  }
+}
+
+TEST(InitialBalance, WhatIsUnbalancedWithinTheGroundIs) {
+  const std::string within = "initial stress: unbalanced forces within the ground";
+  EXPECT_EQ(failed({"stress = [0, 0, 0]\nat_y = 30\ngradient = [18e3, 25e3, 0]"}), Names{within});
+  EXPECT_EQ(failed({"stress = [0, 0, 0]\nat_y = 30\ngradient = [18e3, 26e3, 1e3]"}), Names{within});
+}
+
+/// The ground above the model is missing, unless a boundary stands for it.
+TEST(InitialBalance, SoIsAFreeTopUnderStress) {
+  const std::string top = "initial stress: stress that is missing at the free top";
+  EXPECT_EQ(failed({"k0 = 0.7\nsurface_y = 60"}), Names{top});
+  EXPECT_EQ(failed({"k0 = 0.7\nsurface_y = 60", 20.0, 35.0,
+                    "[[boundary]]\nsides = ['top']\ntype = 'stress'\n"}),
+            Names{});
+  EXPECT_EQ(failed({"stress = [-1e6, -1e6, 0]\nat_y = 30\ngradient = [18e3, 26e3, 0]"}),
+            Names{top});
+}
+
+/// A stage until equilibrium brings to rest what moves; without one it is said.
+TEST(InitialBalance, IsToldWhereNoStageBringsItToRest) {
+  const auto told = [](const char* first) {
+    const PreparedRun run = prepared({}, first);
+    return std::any_of(run.warnings.begin(), run.warnings.end(), [](const std::string& warning) {
+      return warning.find("forces are unbalanced at the start") != std::string::npos;
+    });
+  };
+  EXPECT_FALSE(told("[[stage]]\nuntil = 'equilibrium'\n"));
+  EXPECT_TRUE(told("[[stage]]\nduration = 1\n"));
+}
+
+}  // namespace
+}  // namespace edda::initial_balance_test
