@@ -15,6 +15,7 @@
 #include "observe/damping_report.hpp"
 #include "observe/initial_stress_report.hpp"
 #include "observe/locked_toes.hpp"
+#include "observe/locking.hpp"
 #include "observe/observe.hpp"
 #include "observe/sliver_report.hpp"
 #include "step/labels.hpp"
@@ -269,11 +270,20 @@ void warn_of_overlaps(const Simulation& sim, std::vector<std::string>& warnings)
 void warn_of_strain_damping(const Simulation& sim, std::vector<std::string>& warnings) {
   constexpr double much = 0.05;
   for (const StrainDampingAt& at : strain_damping_at(sim)) {
-    if (!(at.fraction > much)) continue;
-    warnings.push_back(
-        fmt::format("the strain damping is up to {:.2g} of critical at {:.3g} Hz, the frequency of "
-                    "{} ({}): give a lower damping of the material, or smaller blocks",
-                    at.fraction, at.frequency, at.of, block_label(sim.scene->blocks, at.block)));
+    if (at.lost > much) {
+      warnings.push_back(fmt::format(
+          "about {:.0f} % of the motion that {} ({:.3g} Hz) sends over {:.3g} m through the blocks "
+          "is lost to their strain damping (up to {:.2g} of critical at this frequency, in {}): "
+          "give the materials a damping lower by {:.1g}, or 0 where nothing slides, or smaller "
+          "blocks",
+          100.0 * at.lost, at.of, at.frequency, at.length, at.fraction,
+          block_label(sim.scene->blocks, at.block), 0.02 / at.lost));
+    } else if (at.length == 0.0 && at.fraction > much) {
+      warnings.push_back(
+          fmt::format("the strain damping is up to {:.2g} of critical at {:.3g} Hz, the frequency "
+                      "of {} ({}): give a lower damping of the material, or smaller blocks",
+                      at.fraction, at.frequency, at.of, block_label(sim.scene->blocks, at.block)));
+    }
   }
 }
 
@@ -328,6 +338,7 @@ std::vector<std::string> model_warnings(const Simulation& sim) {
     warn_of_few(sim, warnings);
   }
   warn_of_strain_damping(sim, warnings);
+  warn_of_locking(sim, warnings);
   warn_of_springs(sim, warnings);
   warn_of_slivers(sim, warnings);
   warn_of_kept_slivers(sim, warnings);
