@@ -228,14 +228,16 @@ EDDA_INLINE EndsOfFace ends_of(const FaceInputs& in, const Face& face, const End
 /// strike_speed() of both ends.
 EDDA_INLINE FaceEnds strikes_of(const FaceInputs& in, const Face& face, const EndMotion& moved,
                                 const DashpotRoots& roots, bool touches) {
-  const auto turns = [&](double root) {
-    return roots.spring / ((root > 0.0 ? root : 1.0) * in.per_step);
+  const auto strike = [&](double d, double before, double closing, double root, double normal) {
+    // With the stiffness N/d of the pressure as it is, below that of the whole end.
+    const double whole = d * roots.spring;
+    const double part = smaller(positive_part(normal) / (whole > 0.0 ? whole : 1.0), 1.0);
+    const double turns = roots.spring * std::sqrt(part) / ((root > 0.0 ? root : 1.0) * in.per_step);
+    return strike_speed(touches & (d > in.noise), before, closing * in.per_step, turns);
   };
-  const FaceBefore& old = in.before;
-  return {strike_speed(touches & (face.closure.a > in.noise), old.strike.a,
-                       moved.closure.a * in.per_step, turns(roots.a)),
-          strike_speed(touches & (face.closure.b > in.noise), old.strike.b,
-                       moved.closure.b * in.per_step, turns(roots.b))};
+  const FaceEnds before = in.before.strike, closing = moved.closure;
+  return {strike(face.closure.a, before.a, closing.a, roots.a, face.normal.a),
+          strike(face.closure.b, before.b, closing.b, roots.b, face.normal.b)};
 }
 
 /// An end that gapes beside one that is pressed has a part of its pressure, and strikes with it.

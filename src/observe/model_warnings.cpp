@@ -266,6 +266,30 @@ void warn_of_overlaps(const Simulation& sim, std::vector<std::string>& warnings)
       place_label(middle_of(f, sim.motion.pose, k) + sim.scene->blocks.origin), energy));
 }
 
+/// A number is fitted to the impact of a square; other shapes differ where blocks strain in it.
+void warn_of_stiff_restitution(const Simulation& sim, std::vector<std::string>& warnings) {
+  constexpr double stiff_impact = 0.1;
+  const BlockSet& b = sim.scene->blocks;
+  for (const JointLaw& law : sim.scene->model.joints) {
+    if (!law.restitution || law.restitution->housner || !law.kn || law.restitution->part == 1.0)
+      continue;
+    double most = 0.0;
+    for (std::size_t i = 0; i < b.size(); ++i) {
+      if (!free_block(sim, i)) continue;
+      const double young =
+          sim.scene->model.materials[static_cast<std::size_t>(b.material[i])].young;
+      most = std::max(most, 0.5 * *law.kn * std::sqrt(b.area[i]) / young);
+    }
+    if (!(most > stiff_impact)) continue;
+    warnings.push_back(fmt::format(
+        "the restitution of joint {} is right for squares that fall flat alone: its kn makes the "
+        "ends of a contact {:.2g} times as stiff as the rock, so that blocks strain as they "
+        "strike; "
+        "leave out kn where the rebound matters, or give at most {:.2g} Pa/m",
+        law.name, most, stiff_impact / most * *law.kn));
+  }
+}
+
 /// Rock under ground motion has a damping of a few hundredths of critical.
 void warn_of_strain_damping(const Simulation& sim, std::vector<std::string>& warnings) {
   constexpr double much = 0.05;
@@ -339,6 +363,7 @@ std::vector<std::string> model_warnings(const Simulation& sim) {
   }
   warn_of_strain_damping(sim, warnings);
   warn_of_locking(sim, warnings);
+  warn_of_stiff_restitution(sim, warnings);
   warn_of_springs(sim, warnings);
   warn_of_slivers(sim, warnings);
   warn_of_kept_slivers(sim, warnings);

@@ -28,7 +28,7 @@ Model stiffened(Model model) {
 
 /// Whether another search costs little.
 bool is_short(const FosResult& r) {
-  constexpr double most = 1e8;  // block steps
+  constexpr double most = 4e7;  // block steps, some seconds
   double steps = 0.0;
   for (const Trial& trial : r.trials) steps += static_cast<double>(trial.steps);
   return steps * static_cast<double>(r.blocks) < most;
@@ -41,6 +41,8 @@ std::string why_below_rigid(const Model& model, const Fos& fos, const FosOptions
   const double factor = *found.factor;
   const std::string below =
       fmt::format("the factor is {:.2g} % lower than theirs", 100.0 * (1.0 - factor / limit));
+  constexpr double worth = 0.05;  // another search
+  if (factor > (1.0 - worth) * limit) return below + " (docs/limit.md)";
   if (!is_short(found)) {
     return below +
            ", which rock and joints that deform may explain: repeat the search with young, "
