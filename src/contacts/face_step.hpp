@@ -233,7 +233,8 @@ EDDA_INLINE FaceEnds strikes_of(const FaceInputs& in, const Face& face, const En
     const double whole = d * roots.spring;
     const double part = smaller(positive_part(normal) / (whole > 0.0 ? whole : 1.0), 1.0);
     const double turns = roots.spring * std::sqrt(part) / ((root > 0.0 ? root : 1.0) * in.per_step);
-    return strike_speed(touches & (d > in.noise), before, closing * in.per_step, turns);
+    const bool asks = in.strength.rebound > 0.0;
+    return strike_speed(asks & touches & (d > in.noise), before, closing * in.per_step, turns);
   };
   const FaceEnds before = in.before.strike, closing = moved.closure;
   return {strike(face.closure.a, before.a, closing.a, roots.a, face.normal.a),

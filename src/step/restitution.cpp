@@ -14,21 +14,18 @@
 namespace edda {
 namespace {
 
-/// Ratio of Young's modulus to the spring of a contact, and the strongest dashpot used with it. The
-/// softer the spring, the less an impact depends on the strain of the block, and the deeper corners
-/// penetrate. With a stronger dashpot the strain of the block determines the rebound. Dashpots that
-/// follow the pressure (LawDashpots::rebound) leave e with rebound (1 + e) = ln((1 + rebound)/(1 -
-/// rebound e)), about 1/rebound at the least; what is to come to rest has linear ones, of so many
-/// times critical.
+/// Ratio of Young's modulus to the spring of a contact, and the largest LawDashpots::rebound used
+/// with it. The softer the spring, the less an impact depends on the strain of the block, and the
+/// deeper corners penetrate. With a stronger dashpot the strain of the block determines the
+/// rebound. What remains is e where rebound (1 + e) = ln((1 + rebound)/(1 - rebound e)), about
+/// 1/rebound at the least.
 struct Softness {
   double factor, strongest;
-  bool linear;
 };
-constexpr Softness bouncing{30.0, 16.0, false}, dead{100.0, 5.0, true};
-LawDashpots dashpots_of(const Softness& soft, double spring, double strength) {
-  if (strength == 0.0) return {0.0, 0.0, spring, 0.0};
-  if (soft.linear) return {strength, 0.0, spring, 0.0};
-  return {0.5 * (1.0 + strength), 0.0, spring, strength};  // enough wherever it strikes
+constexpr Softness bouncing{30.0, 5.2}, dull{100.0, 40.0};
+/// With linear dashpots as a limit that no impact reaches, but that holds the step up little.
+LawDashpots dashpots_of(double spring, double rebound) {
+  return {std::sqrt(rebound), 0.0, spring, rebound};
 }
 // The same for Housner's restitution: strong enough that a corner stays where it strikes.
 constexpr double housners_factor = 15.0, plastic = 4.0;
@@ -146,24 +143,24 @@ std::optional<Fault> too_stiff(const JointLaw& law, const Reference& reference) 
 Result<LawDashpots> fit_part(const Model& model, const Reference& reference, const JointLaw& law,
                              double wanted) {
   double least = 0.0;
-  for (const Softness& soft : {bouncing, dead}) {
+  for (const Softness& soft : {bouncing, dull}) {
     const double spring =
         std::min(contact_springs(model).normal, reference.rock.young / soft.factor);
-    const auto left = [&](double strength) {
-      return restitution_of(model, reference, law, dashpots_of(soft, spring, strength));
+    const auto left = [&](double rebound) {
+      return restitution_of(model, reference, law, dashpots_of(spring, rebound));
     };
     const double most = left(0.0);
     if (wanted > most + close_to) return out_of_reach(law, reference, true, most);
-    if (wanted >= most) return dashpots_of(soft, spring, 0.0);
+    if (wanted >= most) return dashpots_of(spring, 0.0);
     least = left(soft.strongest);
-    if (wanted < least - (soft.linear ? close_to : 0.0)) continue;
+    if (wanted < least - (soft.factor == dull.factor ? close_to : 0.0)) continue;
     double low = 0.0, high = soft.strongest;
     constexpr int rounds = 16;
     for (int round = 0; round < rounds; ++round) {
       const double middle = 0.5 * (low + high);
       (left(middle) > wanted ? low : high) = middle;
     }
-    return dashpots_of(soft, spring, 0.5 * (low + high));
+    return dashpots_of(spring, 0.5 * (low + high));
   }
   return out_of_reach(law, reference, false, least);
 }

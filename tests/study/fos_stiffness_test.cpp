@@ -36,7 +36,7 @@ Model arch(double young, double kn) {
       "[[block]]\nfixed = true\npolygon = [[4, -1], [6, -1], [6, 0], [4, 0]]\n"
       "[[load]]\nname = \"p\"\npoint = [" +
       std::to_string(chord * std::cos(at)) + ", " + std::to_string(chord * std::sin(at)) +
-      "]\nforce = [0, -1000]\n[fos]\nvary = \"load:p\"\ntolerance = 0.01\n";
+      "]\nforce = [0, -1000]\n[fos]\nvary = \"load:p\"\ntolerance = 0.01\n[solver]\nduration = 1\n";
   Result<Model> model = read_model_text(text, "m.toml", {});
   if (!model.ok()) ADD_FAILURE() << to_string(model.faults()[0]);
   return std::move(model.value());

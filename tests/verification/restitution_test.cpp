@@ -95,7 +95,7 @@ TEST(Restitution, FlatImpactsLeaveThePartAskedFor) {
           "drop, " + brief(w) + " x " + brief(h) + ", asked for " + brief(part);
       expect_at_most({55, which, "error of the remaining part of the velocity", ""},
                      std::abs(left - part),
-                     part == 0.0 ? 0.06
+                     part == 0.0 ? 0.1
                      : w == h    ? 0.015
                                  : 0.03);
     }
@@ -166,9 +166,9 @@ TEST(Restitution, EveryShapeKeepsThePartAskedFor) {
   const auto expect = [](const std::string& which, double left, double part) {
     expect_at_most({55, which + ", asked for " + brief(part),
                     "error of the remaining part of the velocity", ""},
-                   std::abs(left - part), std::max(0.03 * part, 0.015));
+                   std::abs(left - part), part == 0.0 ? 0.1 : std::max(0.03 * part, 0.015));
   };
-  for (const double part : {0.2, 0.5, 0.8}) {
+  for (const double part : {0.0, 0.1, 0.2, 0.5, 0.8}) {
     for (int n = 3; n <= 12; ++n) {
       for (const bool on_corner : {false, true}) {
         expect(std::to_string(n) + (on_corner ? "-gon on a corner" : "-gon, flat"),
@@ -186,6 +186,7 @@ TEST(Restitution, EveryShapeKeepsThePartAskedFor) {
           part);
     }
     for (const bool on_corner : {false, true}) {
+      if (part == 0.0) break;  // is refused: the least is 0.11
       expect(std::string("hexagon ") + (on_corner ? "on a corner" : "flat") + ", measured kn",
              left_of_impact(regular(6, on_corner), {}, part, "kn = 1e9\n"), part);
     }
