@@ -236,9 +236,8 @@ EDDA_INLINE FaceEnds strikes_of(const FaceInputs& in, const Face& face, const En
     const bool asks = in.strength.rebound > 0.0;
     return strike_speed(asks & touches & (d > in.noise), before, closing * in.per_step, turns);
   };
-  const FaceEnds before = in.before.strike, closing = moved.closure;
-  return {strike(face.closure.a, before.a, closing.a, roots.a, face.normal.a),
-          strike(face.closure.b, before.b, closing.b, roots.b, face.normal.b)};
+  return {strike(face.closure.a, in.before.strike.a, moved.closure.a, roots.a, face.normal.a),
+          strike(face.closure.b, in.before.strike.b, moved.closure.b, roots.b, face.normal.b)};
 }
 
 /// An end that gapes beside one that is pressed has a part of its pressure, and strikes with it.
