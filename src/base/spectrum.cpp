@@ -12,28 +12,6 @@ namespace {
 
 using Complex = std::complex<double>;
 
-/// Fast Fourier transform of 2^k values, in place.
-void fourier(std::vector<Complex>& a) {
-  const std::size_t n = a.size();
-  for (std::size_t i = 1, j = 0; i < n; ++i) {
-    std::size_t bit = n >> 1U;
-    for (; (j & bit) != 0; bit >>= 1U) j ^= bit;
-    j ^= bit;
-    if (i < j) std::swap(a[i], a[j]);
-  }
-  for (std::size_t length = 2; length <= n; length *= 2) {
-    const double turn = -2.0 * std::numbers::pi / static_cast<double>(length);
-    for (std::size_t k = 0; k < length / 2; ++k) {
-      const Complex w = std::polar(1.0, turn * static_cast<double>(k));
-      for (std::size_t i = k; i < n; i += length) {
-        const Complex u = a[i], v = w * a[i + length / 2];
-        a[i] = u + v;
-        a[i + length / 2] = u - v;
-      }
-    }
-  }
-}
-
 /// The curve at equal intervals as x + iy about its mean, padded with zeros to four times the
 /// number.
 std::vector<Complex> samples(const std::vector<double>& time, const std::vector<Vec2>& value,
@@ -58,6 +36,27 @@ std::vector<Complex> samples(const std::vector<double>& time, const std::vector<
 }
 
 }  // namespace
+
+void fourier(std::vector<Complex>& a) {
+  const std::size_t n = a.size();
+  for (std::size_t i = 1, j = 0; i < n; ++i) {
+    std::size_t bit = n >> 1U;
+    for (; (j & bit) != 0; bit >>= 1U) j ^= bit;
+    j ^= bit;
+    if (i < j) std::swap(a[i], a[j]);
+  }
+  for (std::size_t length = 2; length <= n; length *= 2) {
+    const double turn = -2.0 * std::numbers::pi / static_cast<double>(length);
+    for (std::size_t k = 0; k < length / 2; ++k) {
+      const Complex w = std::polar(1.0, turn * static_cast<double>(k));
+      for (std::size_t i = k; i < n; i += length) {
+        const Complex u = a[i], v = w * a[i + length / 2];
+        a[i] = u + v;
+        a[i + length / 2] = u - v;
+      }
+    }
+  }
+}
 
 double dominant_frequency(const std::vector<double>& time, const std::vector<Vec2>& value) {
   if (time.size() < 3 || !(time.back() > time.front())) return 0.0;

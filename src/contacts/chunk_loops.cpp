@@ -107,7 +107,7 @@ EDDA_INLINE FaceInputs inputs_of(const ChunkColumns& c, std::size_t k) {
   const DashpotMemoryColumns<const double*>& d = c.damped_before;
   return {pair_of(c, k),
           {c.shear_stiffness[k], c.friction[k], c.cohesion[k], c.bonded[k] > 0.0, c.zeta[k],
-           c.shear_zeta[k]},
+           c.shear_zeta[k], c.rebound[k]},
           !books ? FacePoints{} : points_of(*c.e, *c.f, k),
           !books ? FacePoints{} : points_of(*c.e_then, *c.f_then, k),
           {c.before.slip_a[k],
@@ -121,7 +121,8 @@ EDDA_INLINE FaceInputs inputs_of(const ChunkColumns& c, std::size_t k) {
            was(lane_bits::switched),
            {c.before.s2[k], c.before.y2[k], c.before.r1[k], 0.0, c.before.r2[k], c.before.z2[k]},
            dashpots ? FaceEnds{d.damping_a[k], d.damping_b[k]} : FaceEnds{},
-           dashpots ? FaceEnds{d.shear_damping_a[k], d.shear_damping_b[k]} : FaceEnds{}},
+           dashpots ? FaceEnds{d.shear_damping_a[k], d.shear_damping_b[k]} : FaceEnds{},
+           dashpots ? FaceEnds{d.strike_a[k], d.strike_b[k]} : FaceEnds{}},
           mass_of(c.mass_e),
           mass_of(c.mass_f),
           c.per_step,
@@ -142,6 +143,8 @@ EDDA_INLINE void write_memory(const ChunkColumns& c, const FaceStep& s, std::siz
     d.damping_b[k] = s.damping.b;
     d.shear_damping_a[k] = s.shear_damping.a;
     d.shear_damping_b[k] = s.shear_damping.b;
+    d.strike_a[k] = s.strike.a;
+    d.strike_b[k] = s.strike.b;
   }
 }
 

@@ -191,6 +191,7 @@ void set_face_dashpots(FaceSet& c, const LawTable& laws, double damping) {
     const Law& law = laws.rows[c.law[k]];
     c.zeta[k] = laws.damping_of(law, damping);
     c.shear_zeta[k] = law.dashpots ? law.shear_damping : 0.0;
+    c.rebound[k] = law.dashpots ? law.rebound : 0.0;
   }
 }
 

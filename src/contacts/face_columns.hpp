@@ -44,7 +44,8 @@ EDDA_INLINE FaceBefore face_before(const FaceView& c, std::size_t k) {
           m.switched[k] > 0.0,
           coordinates_at(c, c.x1, c.y1, k),
           dashpots ? FaceEnds{m.damping_a[k], m.damping_b[k]} : FaceEnds{},
-          dashpots ? FaceEnds{m.shear_damping_a[k], m.shear_damping_b[k]} : FaceEnds{}};
+          dashpots ? FaceEnds{m.shear_damping_a[k], m.shear_damping_b[k]} : FaceEnds{},
+          dashpots ? FaceEnds{m.strike_a[k], m.strike_b[k]} : FaceEnds{}};
 }
 
 template <bool dashpots, bool limits_given>
@@ -54,7 +55,7 @@ EDDA_INLINE FaceInputs inputs_of(const FaceView& c, std::size_t k) {
   };
   return {face_pair(c, c.exterior_cosine, c.exterior_sine, k),
           {c.shear_stiffness[k], c.friction[k], c.cohesion[k], c.bonded[k] > 0.0, c.zeta[k],
-           c.shear_zeta[k]},
+           c.shear_zeta[k], c.rebound[k]},
           face_points(c, c.x, c.y, k),
           face_points(c, c.x1, c.y1, k),
           face_before<dashpots>(c, k),
@@ -97,6 +98,8 @@ EDDA_INLINE void write_face(const FaceView& c, const Face& face, const FaceStep&
     m.damping_b[k] = s.damping.b;
     m.shear_damping_a[k] = s.shear_damping.a;
     m.shear_damping_b[k] = s.shear_damping.b;
+    m.strike_a[k] = s.strike.a;
+    m.strike_b[k] = s.strike.b;
     m.damping_work[k] = s.damping_work;
     m.damping_due[k] = s.damping_due;
   }

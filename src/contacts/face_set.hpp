@@ -35,6 +35,7 @@ struct FaceFields {
   C transfer;  ///< lost in the last step by changes of the overlap, no physical process, J
   C damping_a, damping_b;              ///< forces of the normal dashpots, N
   C shear_damping_a, shear_damping_b;  ///< forces of the shear dashpots, N
+  C strike_a, strike_b;                ///< speed at which the ends closed (strike_speed()), m/s
   C damping_work;  ///< work of the dashpot forces at n in the last step, from n - 1 to n, J
   C damping_due;   ///< work of the dashpot forces at n - 1 in it, the last that they do, J
 };
@@ -75,6 +76,8 @@ inline constexpr FaceField<C> face_fields[] = {
     {"damping_b", "N", &FaceFields<C>::damping_b},
     {"shear_damping_a", "N", &FaceFields<C>::shear_damping_a},
     {"shear_damping_b", "N", &FaceFields<C>::shear_damping_b},
+    {"strike_a", "m/s", &FaceFields<C>::strike_a},
+    {"strike_b", "m/s", &FaceFields<C>::strike_b},
     {"damping_work", "J", &FaceFields<C>::damping_work},
     {"damping_due", "J", &FaceFields<C>::damping_due}};
 inline constexpr auto& face_columns = face_fields<ChunkColumn>;
@@ -83,6 +86,7 @@ inline constexpr auto& face_columns = face_fields<ChunkColumn>;
 inline constexpr ChunkColumn FaceFields<ChunkColumn>::*dashpot_columns[] = {
     &FaceFields<ChunkColumn>::damping_a,       &FaceFields<ChunkColumn>::damping_b,
     &FaceFields<ChunkColumn>::shear_damping_a, &FaceFields<ChunkColumn>::shear_damping_b,
+    &FaceFields<ChunkColumn>::strike_a,        &FaceFields<ChunkColumn>::strike_b,
     &FaceFields<ChunkColumn>::damping_work,    &FaceFields<ChunkColumn>::damping_due};
 
 struct FaceMemory : ChunkTable<FaceFields<ChunkColumn>, face_fields<ChunkColumn>> {
@@ -121,6 +125,7 @@ struct FaceProperties {
   C carries_tension;     ///< 1: carries tension
   C bonded;              ///< 1: has its peak strength; its shear is not cut end by end
   C zeta, shear_zeta;    ///< dashpots, as fractions of critical: set_face_dashpots()
+  C rebound;             ///< of dashpots in proportion to the pressure; 0: they are linear
 
   C tension;  ///< tensile strength times thickness, N per m of overlap; used where carries_tension
               ///< is 1
@@ -166,6 +171,7 @@ inline constexpr FaceProperty<C> face_property_list[] = {
     {"bonded", "1", &FaceProperties<C>::bonded, true},
     {"zeta", "1", &FaceProperties<C>::zeta, false},
     {"shear_zeta", "1", &FaceProperties<C>::shear_zeta, false},
+    {"rebound", "1", &FaceProperties<C>::rebound, false},
     {"tension", "N/m", &FaceProperties<C>::tension, true},
     {"glued", "1", &FaceProperties<C>::glued, true},
     {"slip_so_far", "m", &FaceProperties<C>::slip_so_far, true},

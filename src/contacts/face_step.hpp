@@ -8,45 +8,13 @@
 #include <cmath>
 
 #include "base/vector_loop.hpp"
-#include "blocks/masses.hpp"
 #include "contacts/face.hpp"
+#include "contacts/face_inputs.hpp"
 
 namespace edda {
 
 inline constexpr double unlimited_shear =
     1e300;  ///< N, limit of a bonded face: it fails as a whole
-
-/// Shear strength and damping of a face.
-struct FaceStrength {
-  double shear_stiffness;   ///< ks times the thickness, N/m per m of overlap
-  double friction;          ///< tan(phi)
-  double cohesion;          ///< c times the thickness, N per m of overlap
-  bool bonded;              ///< has its peak strength; its shear is not cut end by end
-  double zeta, shear_zeta;  ///< dashpots, as fractions of critical
-};
-
-/// A face at n - 1.
-struct FaceBefore {
-  double slip_a, slip_b;    ///< elastic slip u, m: T = -spring u
-  double overlap, spring;   ///< of the shear springs: length of both, m; stiffness of each, N/m
-  bool stored, on;          ///< it stored energy; its gate was open
-  bool closed_a, closed_b;  ///< its ends were closed
-  bool switched;            ///< one of them had just opened or closed
-  EdgeCoordinates corners;  ///< in the frame of n - 1; without z1
-  FaceEnds damping, shear_damping;  ///< forces of the dashpots, N
-};
-
-/// All that a step of a face follows from.
-struct FaceInputs {
-  FacePair pair;
-  FaceStrength strength;
-  FacePoints at, then;  ///< the corners at n and n - 1; `then` counts only with a locked closure
-  FaceBefore before;
-  EdgeInverseMass mass_e, mass_f;  ///< for dashpots
-  double per_step;                 ///< 1/s, of the step from n - 1 to n
-  double noise;                    ///< m: closures up to this size are rounding of the coordinates
-  FaceEnds limits;                 ///< of the shear forces, N, where they are given
-};
 
 /// Relative displacement, in the last step, of the two material points that lie at each end now, m,
 /// on which the forces at the ends do their work (add_ends()): slip along the edge on which a
@@ -136,21 +104,16 @@ EDDA_INLINE bool needs_decision(const FaceInputs& in, bool on, FaceEnds drawn, b
   return begins | frees | first;
 }
 
-/// One end of a face: its normal force, its elastic slip before Coulomb's limit, and the motion of
-/// its points in the last step (EndMotion); of the closing only what came after they touched.
-struct EndOfFace {
-  double normal, trial, closing, slipping, xi, eta;
-};
 /// Forces at one end besides the pressure.
 struct EndActs {
   double force, slip;             ///< as in Shear
   double damping, shear_damping;  ///< of the dashpots across and along the face, N
 };
 
-/// Roots sqrt(p m) of the dashpots across both ends, kg/s, with the spring p of the end and the
-/// mass m that it moves; and the factor from there to those along the face.
+/// Roots sqrt(p m) of the dashpots across both ends, kg/s, with the spring p of the end, N/m, and
+/// the mass m that it moves; and the factor from there to those along the face.
 struct DashpotRoots {
-  double a = 0.0, b = 0.0, along_per_across = 0.0;
+  double a = 0.0, b = 0.0, along_per_across = 0.0, spring = 0.0;
 };
 EDDA_INLINE DashpotRoots dashpot_roots(const FaceInputs& in, const Face& face, double spring) {
   const auto inverse_mass = [&](double xi, double eta) {
@@ -162,7 +125,26 @@ EDDA_INLINE DashpotRoots dashpot_roots(const FaceInputs& in, const Face& face, d
   const double across = 0.5 * in.pair.stiffness * positive_part(face.length) * face.gate;
   const double per_both = moves ? 1.0 / (inverse_a * inverse_b) : 0.0;
   return {std::sqrt(across * inverse_b * per_both), std::sqrt(across * inverse_a * per_both),
-          std::sqrt(spring / (across > 0.0 ? across : 1.0))};
+          std::sqrt(spring / (across > 0.0 ? across : 1.0)), across};
+}
+
+/// Speed at which an end that is closed now has closed, m/s: the largest rate of closing since
+/// then, `rate` now, which fades within a hundred radians of the vibration of the end (`turns` in
+/// the step), so that what has long been at rest there is damped as if it had just come to rest.
+EDDA_INLINE double strike_speed(bool closed, double before, double rate, double turns) {
+  constexpr double fades = 0.01;
+  return closed ? larger(rate, before * positive_part(1.0 - fades * turns)) : 0.0;
+}
+
+/// Coefficient of the dashpot across one end, N s/m: `linear`, or where it has a `rebound` that
+/// times the normal force over the speed at which the end closed, and `linear` at most. A block
+/// then keeps a part of its velocity that follows from `rebound` alone, whatever its mass,
+/// stiffness and shape and however many ends it strikes: each has N (1 + rebound v/strike) (theory,
+/// section 9.7).
+EDDA_INLINE double dashpot_of(double rebound, double linear, const EndOfFace& end) {
+  const double scaled = rebound * positive_part(end.normal);
+  const bool follows = (rebound > 0.0) & (scaled < linear * end.strike);
+  return follows ? scaled / (follows ? end.strike : 1.0) : linear;
 }
 
 /// Shear force under Coulomb's limit, |T| <= c L/2 + N tan(phi), and dashpots c = 2 zeta sqrt(p m)
@@ -184,7 +166,9 @@ EDDA_INLINE EndActs act(const FaceInputs& in, const EndOfFace& end, double sprin
     const Shear shear = cut<books>(end.trial, spring, per_spring, limit_under(end.normal));
     return {shear.force, shear.slip, 0.0, 0.0};
   } else {
-    const double whole = end.normal + 2.0 * in.strength.zeta * root * end.closing * in.per_step;
+    const double linear = 2.0 * in.strength.zeta * root;
+    const double whole =
+        end.normal + dashpot_of(in.strength.rebound, linear, end) * end.closing * in.per_step;
     const double pushing = positive_part(whole);
     const bool tension = carries_tension<use>(in.pair);
     const bool carries = end.normal != 0.0;
@@ -237,8 +221,29 @@ EDDA_INLINE EndsOfFace ends_of(const FaceInputs& in, const Face& face, const End
   };
   const FaceEnds closing{since_touch(moved.closure.a, face.closure.a),
                          since_touch(moved.closure.b, face.closure.b)};
-  return {{face.normal.a, trial_a, closing.a, here.a, face.xi.a, face.eta.a},
-          {face.normal.b, trial_b, closing.b, here.b, face.xi.b, face.eta.b}};
+  return {{face.normal.a, trial_a, closing.a, here.a, face.xi.a, face.eta.a, 0.0},
+          {face.normal.b, trial_b, closing.b, here.b, face.xi.b, face.eta.b, 0.0}};
+}
+
+/// strike_speed() of both ends.
+EDDA_INLINE FaceEnds strikes_of(const FaceInputs& in, const Face& face, const EndMotion& moved,
+                                const DashpotRoots& roots, bool touches) {
+  const auto strike = [&](double d, double before, double closing, double root, double normal) {
+    // With the stiffness N/d of the pressure as it is, below that of the whole end.
+    const double whole = d * roots.spring;
+    const double part = smaller(positive_part(normal) / (whole > 0.0 ? whole : 1.0), 1.0);
+    const double turns = roots.spring * std::sqrt(part) / ((root > 0.0 ? root : 1.0) * in.per_step);
+    const bool asks = in.strength.rebound > 0.0;
+    return strike_speed(asks & touches & (d > in.noise), before, closing * in.per_step, turns);
+  };
+  return {strike(face.closure.a, in.before.strike.a, moved.closure.a, roots.a, face.normal.a),
+          strike(face.closure.b, in.before.strike.b, moved.closure.b, roots.b, face.normal.b)};
+}
+
+/// An end that gapes beside one that is pressed has a part of its pressure, and strikes with it.
+EDDA_INLINE void give_strikes(FaceEnds strike, EndsOfFace& end) {
+  end.a.strike = strike.a > 0.0 ? strike.a : strike.b;
+  end.b.strike = strike.b > 0.0 ? strike.b : strike.a;
 }
 
 /// Work of the forces of ends_at_bounds() in the step, J.
@@ -257,6 +262,7 @@ struct FaceStep {
   FaceEnds trial, slip;    ///< elastic slip before and after Coulomb's limit, m
   FaceEnds shear;          ///< T, N
   FaceEnds damping, shear_damping;  ///< forces of the dashpots across and along the face, N
+  FaceEnds strike;                  ///< strike_speed() of the ends, m/s
   bool touches;                     ///< carries force, or is bonded
   bool closed_a, closed_b;          ///< its ends are closed
   bool switched;                    ///< one of them opens or closes in this step
@@ -310,9 +316,13 @@ EDDA_INLINE FaceStep step_of_face(const FaceInputs& in, const EdgeGeometry& stan
   const ShearSprings springs = shear_springs<books>(in, face, s.touches);
   const double spring = springs.spring, per_spring = springs.per_spring;
   const EndMotion moved = motion_of(face, stands.corners(), old.corners, pair.length_ratio);
-  const EndsOfFace end = ends_of<use>(in, face, moved, springs.kept, s.touches);
+  EndsOfFace end = ends_of<use>(in, face, moved, springs.kept, s.touches);
   DashpotRoots roots;
-  if constexpr (dashpots) roots = dashpot_roots(in, face, spring);
+  if constexpr (dashpots) {
+    roots = dashpot_roots(in, face, spring);
+    s.strike = strikes_of(in, face, moved, roots, s.touches);
+    give_strikes(s.strike, end);
+  }
   const double cohesion = s.touches ? 0.5 * in.strength.cohesion * face.cohesive : 0.0;
   const EndActs a = act<dashpots, limits_given, use, books>(
       in, end.a, spring, per_spring, roots, roots.a, cohesion, s.touches, in.limits.a);

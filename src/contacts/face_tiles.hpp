@@ -43,7 +43,7 @@ inline constexpr std::size_t edge_columns = sizeof(EdgeConstants<double>) / size
 template <class C>
 struct StrengthConstants {
   C ends, friction, cohesion, locked_closure_a, locked_closure_b, carries_tension, bonded;
-  C zeta, shear_zeta;
+  C zeta, shear_zeta, rebound;
   C tension, glued;  ///< as in FaceProperties
 };
 inline constexpr std::size_t strength_columns = sizeof(StrengthConstants<double>) / sizeof(double);
@@ -55,10 +55,10 @@ struct FaceMemoryColumns {
 };
 inline constexpr std::size_t memory_columns = sizeof(FaceMemoryColumns<double>) / sizeof(double);
 
-/// The same where faces have dashpots: the forces of the dashpots.
+/// The same where faces have dashpots: their forces, and the speeds at which the ends closed.
 template <class C>
 struct DashpotMemoryColumns {
-  C damping_a, damping_b, shear_damping_a, shear_damping_b;
+  C damping_a, damping_b, shear_damping_a, shear_damping_b, strike_a, strike_b;
 };
 inline constexpr std::size_t dashpot_memory_columns =
     sizeof(DashpotMemoryColumns<double>) / sizeof(double);

@@ -59,6 +59,7 @@ LawTable build_laws(const Model& model) {
       law.damping = j.dashpots->damping;
       law.shear_damping = j.dashpots->shear_damping;
       law.spring = j.dashpots->spring;
+      law.rebound = j.dashpots->rebound;
     }
     table.any_changes = table.any_changes || table.rows.back().changes;
   }

@@ -20,7 +20,8 @@ struct Law {
   // Dashpots and penalty of its own, where the law gives a restitution (step/restitution.hpp).
   bool dashpots = false;
   double damping = 0.0, shear_damping = 0.0;  ///< fractions of critical
-  double spring = 0.0;  ///< N/m per metre of thickness, where there is no kn; 0: the default
+  double spring = 0.0;   ///< N/m per metre of thickness, where there is no kn; 0: the default
+  double rebound = 0.0;  ///< LawDashpots::rebound
   // Slip-dependent part (contacts/joint_laws.hpp).
   bool changes = false;  ///< its strength or its opening depends on slip
   LawType type = LawType::coulomb;

@@ -32,8 +32,9 @@ EdgeConstants<double> edge_constants(const FaceSet& c, const BlockSet& b, const 
           p.turn_q2.y};
 }
 StrengthConstants<double> strength_constants(const FaceSet& c, const FacePair& p, std::size_t k) {
-  return {p.ends,      c.friction[k], c.cohesion[k],   p.offset.a,   p.offset.b, p.carries_tension,
-          c.bonded[k], c.zeta[k],     c.shear_zeta[k], c.tension[k], c.glued[k]};
+  return {p.ends,          c.friction[k],     c.cohesion[k], p.offset.a,
+          p.offset.b,      p.carries_tension, c.bonded[k],   c.zeta[k],
+          c.shear_zeta[k], c.rebound[k],      c.tension[k],  c.glued[k]};
 }
 /// Of a lane without a face: no length and no stiffness; `passing` is divided by.
 EdgeConstants<double> no_constants() {
@@ -77,7 +78,7 @@ void load_memory(FaceTiles& t, const FaceSet& c, const FaceMemory& m, const std:
     if (t.dashpots) {
       put(t, which, place,
           DashpotMemoryColumns<double>{m.damping_a[k], m.damping_b[k], m.shear_damping_a[k],
-                                       m.shear_damping_b[k]});
+                                       m.shear_damping_b[k], m.strike_a[k], m.strike_b[k]});
     }
   }
   const bool stored = m.energy[k] > 0.0, touches = stored || m.spring[k] > 0.0;

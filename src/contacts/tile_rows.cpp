@@ -43,6 +43,8 @@ FaceFields<double> remembered(const FaceTiles& t, int which, std::size_t k) {
   m.damping_b = dashpots.damping_b;
   m.shear_damping_a = dashpots.shear_damping_a;
   m.shear_damping_b = dashpots.shear_damping_b;
+  m.strike_a = dashpots.strike_a;
+  m.strike_b = dashpots.strike_b;
   m.damping_work = work.damping_work;
   m.damping_due = work.damping_due;
   return m;

@@ -70,13 +70,15 @@ std::vector<SpringOnBlock> faces_all_round(const StiffnessInputs& w, std::size_t
     const double ks = w.laws.shear_stiffness(own, sides);
     normal.assign(1, {bare * kn, l, no_id});
     shear.assign(1, {bare * ks, l, no_id});
-    double zeta = w.laws.damping_of(own, w.damping.contact), shear_zeta = own.shear_damping;
+    double zeta = w.laws.damping_of(own, w.damping.contact), shear_zeta = own.shear_damping,
+           rebound = own.rebound;
     c.for_faces(e, e + 1, [&](Id k, bool of_edge) {
       const Id f = of_edge ? c.facing[k] : c.edge[k];
       const double factor = b.fixed[b.vertex_block[f]] != 0 ? 1.0 : 2.0;
       const Law& law = w.laws.rows[c.law[k]];
       zeta = std::max(zeta, w.laws.damping_of(law, w.damping.contact));
       shear_zeta = std::max(shear_zeta, law.shear_damping);
+      rebound = std::max(rebound, law.rebound);
       normal.push_back({factor * c.stiffness[k], b.edge_length[f], k});
       shear.push_back({factor * c.shear_stiffness[k], b.edge_length[f], k});
     });
@@ -92,7 +94,8 @@ std::vector<SpringOnBlock> faces_all_round(const StiffnessInputs& w, std::size_t
       const double sharp = w.alone ? of_sharp_corner(b.corner[v]) : 1.0;
       const double normal_here = sharp * of_normal, shear_here = sharp * of_shear;
       parts.push_back({normal.front().face, along(weights, outward_normal(t)), along(weights, t),
-                       normal_here, shear_here, factor * zeta * std::sqrt(normal_here),
+                       (1.0 + rebound) * normal_here, shear_here,
+                       factor * zeta * std::sqrt(normal_here),
                        factor * shear_zeta * std::sqrt(shear_here)});
     }
   }

@@ -65,7 +65,8 @@ struct Restitution {
 /// Springs and dashpots that give a contact law its restitution (step/restitution.hpp).
 struct LawDashpots {
   double damping = 0.0, shear_damping = 0.0;  ///< fractions of critical of a contact
-  double spring = 0.0;  ///< N/m per metre of thickness, of contacts without kn
+  double spring = 0.0;   ///< N/m per metre of thickness, of contacts without kn
+  double rebound = 0.0;  ///< of dashpots in proportion to the pressure; 0: they are linear
 };
 
 /// The contact law of a joint (theory, section 5).

@@ -16,9 +16,11 @@ struct StrainDampingAt {
   double fraction = 0.0;   ///< fraction of critical damping of a vibration of block `block` at this
                            ///< frequency
   Id block = no_id;        ///< the block that is damped most
+  double lost = 0.0;    ///< part of the largest motion that it takes off waves (wave_loss.hpp), on
+  double length = 0.0;  ///< a path of this length, m; 0: nothing is taken
 };
 
-/// For ground motions, and for loads and boundaries whose histories oscillate. A viscosity eta
+/// For ground motions, and for loads and boundaries whose histories rise and fall. A viscosity eta
 /// damps with the fraction pi eta f of critical at the frequency f.
 std::vector<StrainDampingAt> strain_damping_at(const Simulation& sim);
 

@@ -16,6 +16,7 @@
 #include "observe/damping_report.hpp"
 #include "observe/initial_stress_report.hpp"
 #include "observe/locked_toes.hpp"
+#include "observe/locking.hpp"
 #include "observe/observe.hpp"
 #include "observe/sliver_report.hpp"
 #include "step/labels.hpp"
@@ -276,15 +277,48 @@ void warn_of_overlaps(const Simulation& sim, std::vector<std::string>& warnings)
       place_label(middle_of(f, sim.motion.pose, k) + sim.scene->blocks.origin), energy));
 }
 
+/// A number is fitted to the impact of a square; other shapes differ where blocks strain in it.
+void warn_of_stiff_restitution(const Simulation& sim, std::vector<std::string>& warnings) {
+  constexpr double stiff_impact = 0.1;
+  const BlockSet& b = sim.scene->blocks;
+  for (const JointLaw& law : sim.scene->model.joints) {
+    if (!law.restitution || law.restitution->housner || !law.kn || law.restitution->part == 1.0)
+      continue;
+    double most = 0.0;
+    for (std::size_t i = 0; i < b.size(); ++i) {
+      if (!free_block(sim, i)) continue;
+      const double young =
+          sim.scene->model.materials[static_cast<std::size_t>(b.material[i])].young;
+      most = std::max(most, 0.5 * *law.kn * std::sqrt(b.area[i]) / young);
+    }
+    if (!(most > stiff_impact)) continue;
+    warnings.push_back(fmt::format(
+        "the restitution of joint {} is right for squares that fall flat alone: its kn makes the "
+        "ends of a contact {:.2g} times as stiff as the rock, so that blocks strain as they "
+        "strike; "
+        "leave out kn where the rebound matters, or give at most {:.2g} Pa/m",
+        law.name, most, stiff_impact / most * *law.kn));
+  }
+}
+
 /// Rock under ground motion has a damping of a few hundredths of critical.
 void warn_of_strain_damping(const Simulation& sim, std::vector<std::string>& warnings) {
   constexpr double much = 0.05;
   for (const StrainDampingAt& at : strain_damping_at(sim)) {
-    if (!(at.fraction > much)) continue;
-    warnings.push_back(
-        fmt::format("the strain damping is up to {:.2g} of critical at {:.3g} Hz, the frequency of "
-                    "{} ({}): give a lower damping of the material, or smaller blocks",
-                    at.fraction, at.frequency, at.of, block_label(sim.scene->blocks, at.block)));
+    if (at.lost > much) {
+      warnings.push_back(fmt::format(
+          "about {:.0f} % of the motion that {} ({:.3g} Hz) sends over {:.3g} m through the blocks "
+          "is lost to their strain damping (up to {:.2g} of critical at this frequency, in {}): "
+          "give the materials a damping lower by {:.1g}, or 0 where nothing slides, or smaller "
+          "blocks",
+          100.0 * at.lost, at.of, at.frequency, at.length, at.fraction,
+          block_label(sim.scene->blocks, at.block), 0.02 / at.lost));
+    } else if (at.length == 0.0 && at.fraction > much) {
+      warnings.push_back(
+          fmt::format("the strain damping is up to {:.2g} of critical at {:.3g} Hz, the frequency "
+                      "of {} ({}): give a lower damping of the material, or smaller blocks",
+                      at.fraction, at.frequency, at.of, block_label(sim.scene->blocks, at.block)));
+    }
   }
 }
 
@@ -339,6 +373,8 @@ std::vector<std::string> model_warnings(const Simulation& sim) {
     warn_of_few(sim, warnings);
   }
   warn_of_strain_damping(sim, warnings);
+  warn_of_locking(sim, warnings);
+  warn_of_stiff_restitution(sim, warnings);
   warn_of_springs(sim, warnings);
   warn_of_slivers(sim, warnings);
   warn_of_kept_slivers(sim, warnings);

@@ -14,14 +14,19 @@
 namespace edda {
 namespace {
 
-/// Ratio of Young's modulus to the spring of a contact, and the largest dashpot used with it
-/// (fraction of critical). The softer the spring, the less an impact depends on the strain of the
-/// block, and the deeper corners penetrate. With a stronger dashpot the strain of the block
-/// determines the rebound.
+/// Ratio of Young's modulus to the spring of a contact, and the largest LawDashpots::rebound used
+/// with it. The softer the spring, the less an impact depends on the strain of the block, and the
+/// deeper corners penetrate. With a stronger dashpot the strain of the block determines the
+/// rebound. What remains is e where rebound (1 + e) = ln((1 + rebound)/(1 - rebound e)), about
+/// 1/rebound at the least.
 struct Softness {
   double factor, strongest;
 };
-constexpr Softness bouncing{30.0, 2.5}, dead{100.0, 5.0};
+constexpr Softness bouncing{30.0, 5.2}, dull{100.0, 40.0};
+/// With linear dashpots as a limit that no impact reaches, but that holds the step up little.
+LawDashpots dashpots_of(double spring, double rebound) {
+  return {std::sqrt(rebound), 0.0, spring, rebound};
+}
 // The same for Housner's restitution: strong enough that a corner stays where it strikes.
 constexpr double housners_factor = 15.0, plastic = 4.0;
 constexpr double close_to = 0.05;  // largest difference of attainable and requested part
@@ -55,7 +60,7 @@ Ring rectangle(Vec2 low, Vec2 high) {
 
 /// A square of the reference rock and size just above a fixed one, moving down.
 Model flat_impact(const Model& model, const Reference& reference, const JointLaw& law,
-                  double spring, double speed, double damping) {
+                  const LawDashpots& dashpots, double speed) {
   Model m;
   m.plane = model.plane;
   m.thickness = model.thickness;
@@ -65,12 +70,12 @@ Model flat_impact(const Model& model, const Reference& reference, const JointLaw
   joint.peak.friction_angle = joint.residual.friction_angle = 30.0;
   joint.kn = law.kn;
   joint.ks = law.ks;
+  joint.dashpots = dashpots;
   m.joints = {joint};
-  m.contact.normal_stiffness = m.contact.shear_stiffness = spring;
+  m.contact.normal_stiffness = m.contact.shear_stiffness = dashpots.spring;
   m.contact.joint = 0;
   m.solver.mass = model.solver.mass;
   m.solver.damping.rayleigh = model.solver.damping.rayleigh;
-  m.solver.damping.contact = damping;
   const double l = reference.size, gap = 1e-6 * l;
   BlockInput ground, block;
   ground.polygon = rectangle({-l, -l}, {2.0 * l, 0.0});
@@ -87,16 +92,15 @@ double spring_of(const Reference& reference, const JointLaw& law, double spring)
   return law.kn ? *law.kn * 0.5 * reference.size : spring;
 }
 
-/// Part of its velocity that the square keeps in a flat impact with a dashpot `damping`.
+/// Part of its velocity that the square keeps in a flat impact.
 double restitution_of(const Model& model, const Reference& reference, const JointLaw& law,
-                      double spring, double damping) {
+                      const LawDashpots& dashpots) {
   const double mass = reference.rock.density * reference.size * reference.size;
-  const double period = std::sqrt(mass / (2.0 * spring_of(reference, law, spring)));
+  const double period = std::sqrt(mass / (2.0 * spring_of(reference, law, dashpots.spring)));
   const double speed = 1e-4 * reference.size / period;
   constexpr double lasts = 8.0;  // periods over 2 pi, and more where the dashpot slows it
-  const double duration = lasts * (1.0 + damping) * period;
-  Result<Simulation> made =
-      Simulation::create(flat_impact(model, reference, law, spring, speed, damping));
+  const double duration = lasts * (1.0 + dashpots.damping) * period;
+  Result<Simulation> made = Simulation::create(flat_impact(model, reference, law, dashpots, speed));
   if (!made.ok()) return 0.0;
   Simulation& sim = made.value();
   start(sim, duration);
@@ -139,24 +143,24 @@ std::optional<Fault> too_stiff(const JointLaw& law, const Reference& reference) 
 Result<LawDashpots> fit_part(const Model& model, const Reference& reference, const JointLaw& law,
                              double wanted) {
   double least = 0.0;
-  for (const Softness& soft : {bouncing, dead}) {
+  for (const Softness& soft : {bouncing, dull}) {
     const double spring =
         std::min(contact_springs(model).normal, reference.rock.young / soft.factor);
-    const auto left = [&](double damping) {
-      return restitution_of(model, reference, law, spring, damping);
+    const auto left = [&](double rebound) {
+      return restitution_of(model, reference, law, dashpots_of(spring, rebound));
     };
     const double most = left(0.0);
     if (wanted > most + close_to) return out_of_reach(law, reference, true, most);
-    if (wanted >= most) return LawDashpots{0.0, 0.0, spring};
+    if (wanted >= most) return dashpots_of(spring, 0.0);
     least = left(soft.strongest);
-    if (wanted < least - (soft.factor == dead.factor ? close_to : 0.0)) continue;
+    if (wanted < least - (soft.factor == dull.factor ? close_to : 0.0)) continue;
     double low = 0.0, high = soft.strongest;
     constexpr int rounds = 16;
     for (int round = 0; round < rounds; ++round) {
       const double middle = 0.5 * (low + high);
       (left(middle) > wanted ? low : high) = middle;
     }
-    return LawDashpots{0.5 * (low + high), 0.0, spring};
+    return dashpots_of(spring, 0.5 * (low + high));
   }
   return out_of_reach(law, reference, false, least);
 }

@@ -14,6 +14,7 @@
 #include "study/fos_rigid.hpp"
 #include "study/fos_sets.hpp"
 #include "study/fos_start.hpp"
+#include "study/fos_stiffness.hpp"
 
 namespace edda {
 namespace {
@@ -125,7 +126,8 @@ void take_rigid_limit(const Fos& fos, LimitResult& limit, bool lost, FosResult& 
 
 /// Compares the factor, or the highest one that holds where none fails, with the limits of rigid
 /// blocks. Returns whether it is beyond them.
-bool compare_with_rigid(const Model& model, const RigidLimit& found, FosResult& r) {
+bool compare_with_rigid(const Model& model, const Fos& fos, const FosOptions& options,
+                        const RigidLimit& found, FosResult& r) {
   const std::optional<double> factor = r.status == FosStatus::above ? r.holds : r.factor;
   if (!factor || !found || found->largest.status != LimitEnd::found) return false;
   const LimitResult& limit = *found;
@@ -143,9 +145,10 @@ bool compare_with_rigid(const Model& model, const RigidLimit& found, FosResult& 
       !rigid.below_most ? "no equilibrium of rigid blocks has a higher factor"
       : lower && bolted ? "the factor is lower, since bolts count there with all their capacity, "
                           "stretched or not (docs/limit.md)"
-      : lower           ? "the factor is lower than theirs (docs/limit.md)"
+      : lower           ? why_below_rigid(model, fos, options, r, rigid.least)
       : beside == BesideLimits::between ? "the factor lies between theirs"
                                         : "the factor agrees with theirs");
+  if (model.initial_stress) rigid.text += "; they leave out the initial stress";
   r.rigid = std::move(rigid);
   return !r.rigid->below_most;
 }
@@ -238,7 +241,7 @@ Result<FosResult> find_factor(const Model& model, const FosOptions& options) {
   }
   add_sets(model, fos, start, options, r);
   warn_of_trials(r);
-  if (compare_with_rigid(model, rigid, r)) {
+  if (compare_with_rigid(model, fos, options, rigid, r)) {
     if (start.as_drawn) {
       take_rigid_limit(fos, *start.rigid, !loose_blocks(start.sim).empty(), r);
     } else {

@@ -14,7 +14,14 @@ double area_of(const BlockSet& b, const std::vector<Id>& blocks) {
   return area;
 }
 
-/// A search from `start` in this bracket, of which only the result is wanted.
+const Trial* trial_at(const std::vector<Trial>& trials, double factor) {
+  const auto found = std::find_if(trials.begin(), trials.end(),
+                                  [&](const Trial& t) { return t.factor == factor; });
+  return found == trials.end() ? nullptr : &*found;
+}
+
+}  // namespace
+
 FosResult found_between(const Model& model, const Fos& fos, const FosBracket& bracket,
                         FosStart& start, const FosOptions& options) {
   FosResult r;
@@ -30,14 +37,6 @@ FosResult found_between(const Model& model, const Fos& fos, const FosBracket& br
   if (r.failed) r.mechanism = first_mechanism(start, r);
   return r;
 }
-
-const Trial* trial_at(const std::vector<Trial>& trials, double factor) {
-  const auto found = std::find_if(trials.begin(), trials.end(),
-                                  [&](const Trial& t) { return t.factor == factor; });
-  return found == trials.end() ? nullptr : &*found;
-}
-
-}  // namespace
 
 Simulation at_start(const Simulation& rest, const Simulation& later) {
   Simulation start = rest;

@@ -27,4 +27,8 @@ void find_wide(const Model& model, const Fos& fos, FosStart start, const FosOpti
 /// "in order: 0.82: 1 block (0.3 m2), sliding ...; 1.36: ..."; empty where one set alone is known.
 std::string sets_text(const FosResult& r);
 
+/// A search from `start` in this bracket, of which only the result is wanted.
+FosResult found_between(const Model& model, const Fos& fos, const FosBracket& bracket,
+                        FosStart& start, const FosOptions& options);
+
 }  // namespace edda

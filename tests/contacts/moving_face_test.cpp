@@ -254,6 +254,27 @@ TEST(MovingFace, DashpotsMoveTheMassOfTheirOwnEnd) {
   EXPECT_NEAR(a_is_high ? m.faces.now.xi_a[k] : m.faces.now.xi_b[k], 0.0, 1e-3);
 }
 
+/// A dashpot that follows the pressure: N rebound v/strike, with the speed at which the end closed,
+/// at most the linear one, and the strike is kept as the closing slows down.
+TEST(MovingFace, DashpotsOfARestitutionFollowThePressure) {
+  JointLaw joint = rough_joint(30.0);
+  constexpr double rebound = 1.5;
+  joint.dashpots = {50.0, 0.0, 1e9, rebound};
+  constexpr double gap = 1e-5, fast = 2e-5, slow = 2e-6;
+  MovedBlocks m = pressed_square(joint, -gap);
+  m.go(1, {{0.0, gap - fast}});
+  m.go(1, {{0.0, gap - fast - slow}});
+  const std::size_t k = m.main_face();
+  const FaceMemory& now = m.faces.now;
+  EXPECT_NEAR(now.strike_a[k] * m.step, fast, 1e-2 * fast);
+  EXPECT_NEAR(now.damping_a[k] / (rebound * now.normal_a[k] * slow / (now.strike_a[k] * m.step)),
+              1.0, 1e-9);
+  // As it leaves, it is pulled by no more than its pressure.
+  m.go(1, {{0.0, -slow}});
+  EXPECT_LT(now.damping_a[k], 0.0);
+  EXPECT_GE(now.damping_a[k] + now.normal_a[k], 0.0);
+}
+
 /// The force of the dashpot does not depend on the distance of the block a step before.
 TEST(MovingFace, DashpotsBeginWhereBlocksTouch) {
   JointLaw joint = rough_joint(30.0);

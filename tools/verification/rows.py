@@ -257,11 +257,13 @@ ROWS = (
         "A third of a percent is the block's own elasticity at the sudden start."),
     Row(55, "Restitution",
         "A block 1 m wide is released at half of its critical tilt and rocks on joints with `restitution ="
-        " \"housner\"`; blocks fall flat on joints with a number. Default damping of the rock.",
+        " \"housner\"`; blocks of many shapes fall on joints with a number, flat and on a corner. Default damping of the"
+        " rock.",
         "With the striking corner fixed and an impulse there alone, an impact leaves (1 - 3/2 sin^2 alpha)^2 of the"
-        " energy, tan alpha width over height (Housner 1963). A flat fall leaves the part of the velocity that was"
-        " given.",
-        "The dashpot of a number is fitted for a square block; for blocks of other shapes it is approximate."),
+        " energy, tan alpha width over height (Housner 1963). A fall leaves the part of the velocity that was"
+        " given, and so does the impact of two free blocks on each other, of their relative velocity.",
+        "The dashpots of a number follow the pressure, so that the part does not depend on shape and mass; what is"
+        " left is the strain of the blocks."),
     Row(56, "Slopes of several blocks",
         "A slab of twenty blocks on a plane; a jointed mass on a plane with cohesion, dry and with water; one on a"
         " stepped base; an active and a passive wedge; six slices on a curved base, dry and with water. Strength is"

@@ -1,0 +1,38 @@
+// Blocks of one strain that are too coarse for stiff joints: how much of a closure or of a bending
+// deflection is lost (theory, section 4.9).
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "step/simulation.hpp"
+
+namespace edda {
+
+/// An opening in ground with an initial stress whose elastic closure is too small.
+struct LockedOpening {
+  std::size_t opening;     ///< row of Model::openings
+  double stiffness = 0.0;  ///< of the joints around it over that of their blocks, the mean
+  double size = 0.0;       ///< m, of the blocks there: root of the mean area
+  double radius = 0.0;     ///< m: root of the area of the opening over pi
+  double lost = 0.0;       ///< part of the closure
+};
+std::vector<LockedOpening> locked_openings(const Simulation& sim);
+
+/// Part of its elastic closure that an opening loses, with x = (0.13 kn + 0.15 ks)
+/// (block/radius)^2: stiffnesses of the joints over those of their blocks, kn as the joint bends;
+/// none for triangles.
+double lost_closure(double x);
+
+/// Blocks glued in a row, which loads bend.
+struct LockedRow {
+  std::vector<Id> blocks;  ///< ascending
+  double stiffness = 0.0;  ///< of their joints over that of the blocks, in bending, the mean
+  double lost = 0.0;       ///< part of the deflection
+  double kn = 0.0;         ///< Pa/m: joints that bend as the blocks would
+};
+LockedRow locked_row(const Simulation& sim);
+
+void warn_of_locking(const Simulation& sim, std::vector<std::string>& warnings);
+
+}  // namespace edda

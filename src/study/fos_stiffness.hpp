@@ -1,0 +1,15 @@
+// How much of a factor the stiffness of rock and joints costs: the same search where both are ten
+// times as stiff.
+#pragma once
+
+#include "study/fos_start.hpp"
+
+namespace edda {
+
+/// A sentence that says why the factor of blocks that deform is below `limit`, that of rigid ones:
+/// what it is with rock and joints ten times as stiff, where that is found within as many steps of
+/// blocks as the search itself may take on a small model, and else how to find it.
+std::string why_below_rigid(const Model& model, const Fos& fos, const FosOptions& options,
+                            const FosResult& found, double limit);
+
+}  // namespace edda
