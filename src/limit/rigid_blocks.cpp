@@ -76,11 +76,7 @@ void add_joint(RigidBlocks& rigid, const Simulation& sim, std::size_t k, double 
   const bool touches_from = std::abs(o.gap_from) <= gap * size,
              touches_to = std::abs(o.gap_to) <= gap * size;
   if (o.to - o.from <= close || (!touches_from && !touches_to)) return;
-  RigidJoint joint;
-  joint.block_a = i;
-  joint.block_b = j;
-  joint.law = faces.law[k];
-  joint.face = k;
+  RigidJoint joint{.block_a = i, .block_b = j, .law = faces.law[k], .face = k};
   if (touches_from && touches_to) {
     joint.t = t;
     joint.n = outward_normal(t);
