@@ -76,7 +76,11 @@ void add_joint(RigidBlocks& rigid, const Simulation& sim, std::size_t k, double 
   const bool touches_from = std::abs(o.gap_from) <= gap * size,
              touches_to = std::abs(o.gap_to) <= gap * size;
   if (o.to - o.from <= close || (!touches_from && !touches_to)) return;
-  RigidJoint joint{.block_a = i, .block_b = j, .law = faces.law[k], .face = k};
+  RigidJoint joint;
+  joint.block_a = i;
+  joint.block_b = j;
+  joint.law = faces.law[k];
+  joint.face = k;
   if (touches_from && touches_to) {
     joint.t = t;
     joint.n = outward_normal(t);
@@ -85,8 +89,7 @@ void add_joint(RigidBlocks& rigid, const Simulation& sim, std::size_t k, double 
     joint.ends[1] = at.p1 + o.to * t + 0.5 * y * joint.n;
     joint.compression = compressive_strength(sim.scene->model, b, i, j);
     joint.has_peak = true;
-    rigid.joints.push_back(joint);
-    return;
+    return rigid.joints.push_back(joint);
   }
   const bool e_leans = touches_from ? o.corner_from_e : o.corner_to_e;
   const Vec2 place = touches_from ? (e_leans ? at.p1 : at.q2) : (e_leans ? at.p2 : at.q1);

@@ -336,4 +336,9 @@ ROWS = (
         "(c A + W' cos a tan phi)/(W' sin a) with the weight W' under buoyancy; (c B + (W - U) tan phi)/H.",
         "Water compresses the block by far more than its weight does, so that its joint would gape while the lake rises. The heel"
         " of the dam cracks. The factors are the middle of a bracket of 0.4 %."),
+    Row(70, "Newmark's block under records",
+        "A block of 2 m x 1 m on a plane of 15 degrees with friction of 25, under 18 made records (sums of twelve sines under an"
+        " envelope, with peaks of 0.3 and 0.6 g), each with both signs, after it has come to equilibrium.",
+        "A rigid block that slides while the driving force exceeds friction, in either direction; integrated with 200 steps for"
+        " each interval of the record (Newmark 1965)."),
 )
