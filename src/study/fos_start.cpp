@@ -273,7 +273,7 @@ TrialPlan plan_at(double factor, const FosStart& start) {
 }
 
 std::string so_far(double factor, const Simulation& sim) {
-  return fmt::format("factor {:.6g}: {} steps so far", factor, sim.motion.state.steps);
+  return fmt::format("trying {:.6g}: {} steps so far", factor, sim.motion.state.steps);
 }
 
 Result<FosStart> start_trials(const Model& model, const Fos& fos, const FosOptions& options) {

@@ -57,15 +57,23 @@ void collect_joints(SeenJoints& joints, const Simulation& before, const Simulati
     const double turning = std::abs(rotation[i] - rotation[j]) * length;
     const EndMoved ends[2] = {end_moved(before, after, k, f.now.xi_a[k], f.now.eta_a[k]),
                               end_moved(before, after, k, f.now.xi_b[k], f.now.eta_b[k])};
-    // Edges that have passed each other have no two points that touch.
+    // What counts are points that touch: edges that have passed each other have none.
     constexpr double touching = 1e-3;
-    if (std::min(ends[0].apart, ends[1].apart) > 2.0 * least + touching * length) continue;
-    const double slip = std::max(ends[0].slip, ends[1].slip);
-    const double opening = std::max(ends[0].opening, ends[1].opening);
-    if (std::max({slip, opening, turning}) < least) continue;
+    const auto touches = [&](const EndMoved& end) {
+      return end.apart <= 2.0 * least + touching * length;
+    };
+    double slip = 0.0, opening = 0.0;
+    for (const EndMoved& end : ends) {
+      if (!touches(end)) continue;
+      slip = std::max(slip, end.slip);
+      opening = std::max(opening, end.opening);
+    }
+    const bool apart = !touches(ends[0]) && !touches(ends[1]);
+    if (apart || std::max({slip, opening, turning}) < least) continue;
     JointData& seen = joints[{i, j, f.law[k]}];
     MovingJoint& joint = seen.joint;
     for (const EndMoved& end : ends) {
+      if (!touches(end)) continue;
       if (std::max(end.slip, end.opening) >= std::max(joint.slip, joint.opening)) {
         joint.place = end.place;
       }
