@@ -52,8 +52,9 @@ void print_end(const FosResult& r, const std::string& folder) {
       "  a trial counts as failed when {}\n",
       r.criterion.displacement
           ? fmt::format("a corner has moved by more than {:.3g} m", *r.criterion.displacement)
-          : fmt::format("blocks have moved by more than {:.2g} of their size as seen from those "
-                        "beside them ({:.2g} where rigid blocks have no equilibrium)",
+          : fmt::format("rigid blocks have no equilibrium in their present places, or blocks have "
+                        "moved by more than {:.2g} of their size as seen from those beside them "
+                        "({:.2g} where rigid blocks as drawn have none)",
                         r.criterion.allowed, moved_little));
   fmt::print("  {}, {} of wall time; results in {}/ (fos.csv, mechanism.png)\n",
              counted(r.trials.size(), "trial"), duration_text(r.seconds), folder);

@@ -8,12 +8,11 @@
 #include <numeric>
 #include <utility>
 
-#include "attachments/bolts.hpp"
 #include "attachments/loads.hpp"
 #include "base/gravity.hpp"
 #include "blocks/kinematics.hpp"
 #include "contacts/face_reading.hpp"
-#include "limit/linear_program.hpp"
+#include "limit/rigid_bolts.hpp"
 
 namespace edda {
 namespace {
@@ -73,8 +72,11 @@ void add_joint(RigidBlocks& rigid, const Simulation& sim, std::size_t k, double 
   const Vec2 t = frame_of(at, faces.inverse_e[k], faces.inverse_f[k]);
   const Opposed o = common_part(at, t);
   const double size = smaller_size(faces, b, k), close = rigid_gap * size;
-  const bool touches_from = std::abs(o.gap_from) <= gap * size,
-             touches_to = std::abs(o.gap_to) <= gap * size;
+  const bool pressed = faces.now.energy[k] > 0.0;  // however deep it is closed
+  const auto touches = [&](double there) {
+    return there <= gap * size && (pressed || there >= -gap * size);
+  };
+  const bool touches_from = touches(o.gap_from), touches_to = touches(o.gap_to);
   if (o.to - o.from <= close || (!touches_from && !touches_to)) return;
   RigidJoint joint;
   joint.block_a = i;
@@ -93,8 +95,9 @@ void add_joint(RigidBlocks& rigid, const Simulation& sim, std::size_t k, double 
   }
   const bool e_leans = touches_from ? o.corner_from_e : o.corner_to_e;
   const Vec2 place = touches_from ? (e_leans ? at.p1 : at.q2) : (e_leans ? at.p2 : at.q1);
+  const double margin = gap > rigid_gap ? -close : close;  // corners may come to bear at the ends
   const bool inside =
-      e_leans ? lies_inside(place, at.q1, at.q2, close) : lies_inside(place, at.p1, at.p2, close);
+      e_leans ? lies_inside(place, at.q1, at.q2, margin) : lies_inside(place, at.p1, at.p2, margin);
   if (inside) rigid.joints.push_back(leaning(joint, at, place, e_leans));
 }
 
@@ -236,48 +239,6 @@ void make_bodies(RigidBlocks& rigid, const Simulation& sim, std::vector<RigidSup
   });
 }
 
-/// A grouted bolt: where it passes from block to block its steel carries up to its yield force
-/// along it, and its dowel across it; between two such places the bond takes up the difference.
-void add_grouted(RigidBlocks& rigid, const Simulation& sim, Id first, Id last) {
-  const Bolts& bolts = sim.attached.bolts;
-  RigidGrout grout;
-  for (Id k = first; k < last; ++k) {
-    if (bolts.bonds.stiffness[k] > 0.0) grout.strength += bolts.bonds.strength[k];
-    if (k + 1 == last || bolts.crossing[k] == 0) continue;
-    const Vec2 t = bar_frame(bolts, sim.motion.state, k).t;
-    const Vec2 place = node_place(bolts, sim.motion.state, k);
-    const double yield = std::min(bolts.bars.strength[k], no_bound);
-    rigid.ties.push_back({bolts.host[k], bolts.host[k + 1], place, place, t, -yield, yield});
-    grout.after = rigid.ties.size() - 1;
-    rigid.grout.push_back(grout);
-    grout = {grout.after, RigidGrout::no_tie, 0.0};
-    const double dowel = bolts.dowels.stiffness[k] > 0.0 ? bolts.dowels.strength[k] : 0.0;
-    if (dowel > 0.0) {
-      const double most = std::min(dowel, no_bound);
-      rigid.ties.push_back({bolts.host[k], bolts.host[k + 1], place, place, perp(t), -most, most});
-    }
-  }
-  rigid.grout.push_back(grout);
-}
-
-/// Bolts, of which those that are anchored at their ends pull and do not push.
-void add_bolts(RigidBlocks& rigid, const Simulation& sim, BoltForces forces) {
-  const Bolts& bolts = sim.attached.bolts;
-  for (std::size_t row = 0; row < bolts.rows.size(); ++row) {
-    const Id first = bolts.begin[row], last = bolts.begin[row + 1];
-    if (bolts.rows[row].grouted) {
-      add_grouted(rigid, sim, first, last);
-    } else {
-      const bool now = forces == BoltForces::as_now;
-      rigid.ties.push_back(
-          {bolts.host[first], bolts.host[first + 1], node_place(bolts, sim.motion.state, first),
-           node_place(bolts, sim.motion.state, first + 1),
-           bar_frame(bolts, sim.motion.state, first).t, now ? bolts.bars.force[first] : 0.0,
-           std::min(now ? bolts.bars.force[first] : bolts.bars.strength[first], no_bound)});
-    }
-  }
-}
-
 constexpr double at_last = 1e30;  // s
 
 /// All loads with the last values of their histories, nothing of them gradual any more.
@@ -311,7 +272,7 @@ RigidBlocks rigid_blocks(const Simulation& sim, BoltForces bolts, double gap) {
     rigid.force = masses / count * acceleration_of(sim);
   }
   for (std::size_t k = 0; k < sim.motion.contacts.size(); ++k) add_joint(rigid, sim, k, gap);
-  leave_out_twins(rigid.joints, rigid_gap * rigid.size);
+  if (gap <= rigid_gap) leave_out_twins(rigid.joints, rigid_gap * rigid.size);
   add_bolts(rigid, sim, bolts);
   make_bodies(rigid, sim, supports_of(sim));
   return rigid;

@@ -133,11 +133,13 @@ void judge_balance(const Simulation& sim, InitialBalance& balance) {
   const StressField field(sim.scene->model, b.origin);
   const LoadsNow now = loads_at(sim.scene->model, sim.attached.loads, 0.0);
   const FaceForces faces(b, field, now);
+  std::size_t inside = 0;
   for (std::size_t i = 0; i < on.size(); ++i) {
     if (!is_free(b, sim.motion.state, i)) continue;
     free_blocks.push_back(static_cast<Id>(i));
     sum += norm(on[i]);
     if (enclosed[i]) {
+      ++inside;
       const bool k0 = !sim.scene->model.initial_stress->stress;
       within += norm(on[i] - (k0 ? missed_by_field(sim, faces, i) : Vec2{}));
     }
@@ -150,7 +152,7 @@ void judge_balance(const Simulation& sim, InitialBalance& balance) {
   if (sum == 0.0) return;
   const auto count = static_cast<double>(free_blocks.size());
   balance.unbalanced = scale > 0.0 ? sum / count / scale : 1.0;
-  balance.within = scale > 0.0 ? within / count / scale : 0.0;
+  balance.within = scale > 0.0 && inside > 0 ? within / static_cast<double>(inside) / scale : 0.0;
   balance.largest = scale > 0.0 ? balance.largest / scale : 1.0;
 }
 
@@ -273,7 +275,9 @@ void warn_of_initial_stress(const Simulation& sim, std::vector<std::string>& war
         "initial_stress: forces are unbalanced at the start by {:.2g} of the mean contact force "
         "({:.2g} within the ground), most on {} at {}: the rock moves there until it is in "
         "equilibrium; behind free faces (a slope, an opening) this is to be expected, within the "
-        "ground it comes from what the lines above report; begin with a stage until equilibrium",
+        "ground it comes from a stress that does not balance the weight, or from joints that "
+        "cannot "
+        "carry it; begin with a stage until equilibrium",
         balance.unbalanced, balance.within, block_label(sim.scene->blocks, balance.block),
         place_label(centroid(sim.motion.state.x, sim.motion.state.y, balance.block) +
                     sim.scene->blocks.origin)));

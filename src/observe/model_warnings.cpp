@@ -309,8 +309,8 @@ void warn_of_strain_damping(const Simulation& sim, std::vector<std::string>& war
       warnings.push_back(fmt::format(
           "about {:.0f} % of the motion that {} ({:.3g} Hz) sends over {:.3g} m through the blocks "
           "is lost to their strain damping (up to {:.2g} of critical at this frequency, in {}): "
-          "give the materials a damping lower by {:.1g}, or 0 where nothing slides, or smaller "
-          "blocks",
+          "multiply the damping of the materials by {:.1g}, or give 0 where nothing slides, or "
+          "smaller blocks",
           100.0 * at.lost, at.of, at.frequency, at.length, at.fraction,
           block_label(sim.scene->blocks, at.block), 0.02 / at.lost));
     } else if (at.length == 0.0 && at.fraction > much) {

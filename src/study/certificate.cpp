@@ -37,10 +37,8 @@ Simulation with_faces_within(const Simulation& sim, double distance) {
   Simulation now = sim;
   update_face_rows(now);
   FaceSet& faces = now.motion.contacts;
-  if (distance > faces.reach) {
-    find_faces(faces, now.scene->blocks, now.motion.state, now.motion.pose, now.motion.laws,
-               {distance, faces.reach_behind});
-  }
+  find_faces(faces, now.scene->blocks, now.motion.state, now.motion.pose, now.motion.laws,
+             {std::max(distance, faces.reach), faces.reach_behind});
   return now;
 }
 
@@ -65,6 +63,15 @@ std::vector<RigidStrength> strength_now(const Simulation& now, const RigidBlocks
   return all;
 }
 
+/// Blocks that have come loose, or that dashpots hold against forces too small to matter.
+std::vector<Id> staying(const Simulation& sim) {
+  std::vector<Id> stay = sim.attached.dashpots.damped;
+  for (Id i = 0; i < sim.relaxation.loose.size(); ++i) {
+    if (sim.relaxation.loose[i] != 0) stay.push_back(i);
+  }
+  return stay;
+}
+
 double area_of(const BlockSet& b, const Mechanism& mechanism) {
   double area = 0.0;
   for (const MovingBlock& m : mechanism.blocks) area += b.area[m.id];
@@ -75,7 +82,8 @@ double area_of(const BlockSet& b, const Mechanism& mechanism) {
 
 std::optional<LimitMotion> without_equilibrium(const Simulation& sim,
                                                const std::vector<double>& divided_by,
-                                               double allowed, double least_area) {
+                                               double allowed, double least_area,
+                                               const ProgramWatch* watch) {
   constexpr std::size_t most_blocks = 5000;
   // The part of gravity with which a block would move by rest_part of its size in rest_time().
   constexpr double at_rest = 2.0 * rest_part / (rest_times * rest_times);
@@ -85,15 +93,13 @@ std::optional<LimitMotion> without_equilibrium(const Simulation& sim,
   RigidBlocks rigid = rigid_blocks(now, BoltForces::to_capacity, std::max(allowed, rigid_gap));
   lengthen(rigid, now);
   if (depends_on_stress(rigid, now.motion.laws)) return {};
-  std::vector<Id> stay;
-  for (Id i = 0; i < sim.relaxation.loose.size(); ++i) {
-    if (sim.relaxation.loose[i] != 0) stay.push_back(i);
-  }
+  std::vector<Id> stay = staying(sim);
   while (true) {
     rigid = carrying(rigid, stay);
     if (rigid.bodies() == 0) return {};
     LimitProblem problem;
     problem.rigid = &rigid;
+    problem.watch = watch;
     problem.strength = strength_now(now, rigid, divided_by);
     problem.dead =
         weights_under(rigid, now, last_gravity(now)) + loads_with(rigid, now, last_factors(now));

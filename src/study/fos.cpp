@@ -102,11 +102,10 @@ void add_scales(const Simulation& sim, FosResult& r) {
 /// has come loose before and does not count in the trials (lost).
 void take_rigid_limit(const Fos& fos, LimitResult& limit, bool lost, FosResult& r) {
   const double held = *r.holds;
-  const auto last = std::find_if(r.trials.begin(), r.trials.end(),
-                                 [&](const Trial& trial) { return trial.factor == held; });
+  const Trial* const last = trial_at(r.trials, held);
   r.rigid->text +=
       fmt::format("; blocks that deform hold up to {:.4g}, after they have moved by {:.3g} m: {}",
-                  held, last == r.trials.end() ? 0.0 : last->displacement,
+                  held, last == nullptr ? 0.0 : last->displacement,
                   lost ? "those that have come loose before do not count"
                        : "a sharp tip or a ledge stands in their way (docs/limit.md)");
   r.warnings.push_back(r.rigid->text);
@@ -127,7 +126,8 @@ void take_rigid_limit(const Fos& fos, LimitResult& limit, bool lost, FosResult& 
 /// Compares the factor, or the highest one that holds where none fails, with the limits of rigid
 /// blocks. Returns whether it is beyond them.
 bool compare_with_rigid(const Model& model, const Fos& fos, const FosOptions& options,
-                        const RigidLimit& found, FosResult& r) {
+                        const FosStart& start, FosResult& r) {
+  const RigidLimit& found = start.rigid;
   const std::optional<double> factor = r.status == FosStatus::above ? r.holds : r.factor;
   if (!factor || !found || found->largest.status != LimitEnd::found) return false;
   const LimitResult& limit = *found;
@@ -145,7 +145,7 @@ bool compare_with_rigid(const Model& model, const Fos& fos, const FosOptions& op
       !rigid.below_most ? "no equilibrium of rigid blocks has a higher factor"
       : lower && bolted ? "the factor is lower, since bolts count there with all their capacity, "
                           "stretched or not (docs/limit.md)"
-      : lower           ? why_below_rigid(model, fos, options, r, rigid.least)
+      : lower           ? why_below_rigid(model, fos, options, start, r, rigid.least)
       : beside == BesideLimits::between ? "the factor lies between theirs"
                                         : "the factor agrees with theirs");
   if (model.initial_stress) rigid.text += "; they leave out the initial stress";
@@ -184,28 +184,25 @@ void warn_of_trials(FosResult& r) {
 /// What shows that the model holds at one end of the bracket and fails at the other.
 std::string proof_of(const FosResult& r) {
   std::string text;
-  for (const Trial& t : r.trials) {
-    if (t.factor != r.holds || t.end != TrialEnd::holds) continue;
+  const Trial* const holds = r.holds ? trial_at(r.trials, *r.holds) : nullptr;
+  if (holds != nullptr) {
     text =
-        fmt::format("at {:.6g} {}", t.factor,
-                    r.criterion.velocity ? t.reason
+        fmt::format("at {:.6g} {}", holds->factor,
+                    r.criterion.velocity ? holds->reason
                                          : "all blocks are at rest, and the forces found "
                                            "balance the loads within the strength of the joints");
-    break;
   }
-  for (const Trial& t : r.trials) {
-    if (t.factor != r.fails || t.end == TrialEnd::holds) continue;
-    text += text.empty() ? "" : "; ";
-    text += fmt::format("at {:.6g} ", t.factor);
-    text += t.proof
-                ? "rigid blocks have no equilibrium, even if every joint that could close is closed"
-            : t.end == TrialEnd::fails && t.part > 0.0
-                ? fmt::format("{} moved by {:.2g} of {} size", counted(t.failed.size(), "block"),
-                              t.part, t.failed.size() == 1 ? "its" : "their")
-                : t.reason;
-    break;
-  }
-  return text;
+  const Trial* const fails = r.fails ? trial_at(r.trials, *r.fails) : nullptr;
+  if (fails == nullptr) return text;
+  return text + fmt::format("{}at {:.6g} {}", text.empty() ? "" : "; ", fails->factor,
+                            fails->proof
+                                ? "rigid blocks have no equilibrium, even if every joint closes "
+                                  "that could within the displacement allowed"
+                            : fails->end == TrialEnd::fails && fails->part > 0.0
+                                ? fmt::format("{} moved by {:.2g} of {} size",
+                                              counted(fails->failed.size(), "block"), fails->part,
+                                              fails->failed.size() == 1 ? "its" : "their")
+                                : fails->reason);
 }
 
 }  // namespace
@@ -241,7 +238,7 @@ Result<FosResult> find_factor(const Model& model, const FosOptions& options) {
   }
   add_sets(model, fos, start, options, r);
   warn_of_trials(r);
-  if (compare_with_rigid(model, fos, options, rigid, r)) {
+  if (compare_with_rigid(model, fos, options, start, r)) {
     if (start.as_drawn) {
       take_rigid_limit(fos, *start.rigid, !loose_blocks(start.sim).empty(), r);
     } else {

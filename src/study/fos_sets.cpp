@@ -14,13 +14,13 @@ double area_of(const BlockSet& b, const std::vector<Id>& blocks) {
   return area;
 }
 
+}  // namespace
+
 const Trial* trial_at(const std::vector<Trial>& trials, double factor) {
   const auto found = std::find_if(trials.begin(), trials.end(),
                                   [&](const Trial& t) { return t.factor == factor; });
   return found == trials.end() ? nullptr : &*found;
 }
-
-}  // namespace
 
 FosResult found_between(const Model& model, const Fos& fos, const FosBracket& bracket,
                         FosStart& start, const FosOptions& options) {

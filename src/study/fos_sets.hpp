@@ -8,6 +8,9 @@ namespace edda {
 /// The equilibrium state `rest`, with the positions from which displacements of `later` count.
 Simulation at_start(const Simulation& rest, const Simulation& later);
 
+/// The trial of this factor; null: there is none.
+const Trial* trial_at(const std::vector<Trial>& trials, double factor);
+
 /// How it fails at the lowest factor that failed; none where that trial has diverged.
 std::optional<Mechanism> first_mechanism(const FosStart& start, const FosResult& r);
 

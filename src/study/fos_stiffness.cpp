@@ -26,10 +26,10 @@ Model stiffened(Model model) {
   return model;
 }
 
-/// Whether another search costs little.
-bool is_short(const FosResult& r) {
+/// Whether another search costs little, its stages included.
+bool is_short(const FosStart& start, const FosResult& r) {
   constexpr double most = 4e7;  // block steps, some seconds
-  double steps = 0.0;
+  auto steps = static_cast<double>(start.sim.motion.state.steps);
   for (const Trial& trial : r.trials) steps += static_cast<double>(trial.steps);
   return steps * static_cast<double>(r.blocks) < most;
 }
@@ -37,13 +37,13 @@ bool is_short(const FosResult& r) {
 }  // namespace
 
 std::string why_below_rigid(const Model& model, const Fos& fos, const FosOptions& options,
-                            const FosResult& found, double limit) {
+                            const FosStart& start, const FosResult& found, double limit) {
   const double factor = *found.factor;
   const std::string below =
       fmt::format("the factor is {:.2g} % lower than theirs", 100.0 * (1.0 - factor / limit));
   constexpr double worth = 0.05;  // another search
   if (factor > (1.0 - worth) * limit) return below + " (docs/limit.md)";
-  if (!is_short(found)) {
+  if (!is_short(start, found)) {
     return below +
            ", which rock and joints that deform may explain: repeat the search with young, "
            "kn and ks ten times as large (docs/limit.md)";

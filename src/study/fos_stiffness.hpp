@@ -10,6 +10,6 @@ namespace edda {
 /// what it is with rock and joints ten times as stiff, where that is found within as many steps of
 /// blocks as the search itself may take on a small model, and else how to find it.
 std::string why_below_rigid(const Model& model, const Fos& fos, const FosOptions& options,
-                            const FosResult& found, double limit);
+                            const FosStart& start, const FosResult& found, double limit);
 
 }  // namespace edda

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "observe/balance.hpp"
@@ -93,7 +92,7 @@ class Run {
       end_by(holding_.look(sim_));
       if (sim_.motion.state.steps == next_proof_) {
         prove_failure();
-        next_proof_ += next_proof_ - steps_;
+        next_proof_ += next_proof_ - followed_;
       }
       if (!over_ && !early_ && holding_.part() > moved_little) {
         update_face_rows(sim_);
@@ -145,9 +144,9 @@ class Run {
   /// Ends the trial where nothing can hold the blocks within the displacement that it allows.
   void prove_failure() {
     const Criterion& c = plan_.criterion;
-    if (over_ || !plan_.rigid_proof || c.displacement || !std::isfinite(c.allowed)) return;
+    if (over_ || !plan_.rigid_proof || c.displacement || c.velocity) return;
     std::optional<LimitMotion> found =
-        without_equilibrium(sim_, strength_, c.allowed, c.least_area);
+        without_equilibrium(sim_, strength_, c.allowed, c.least_area, &watch_);
     if (!found) return;
     early_.reset();
     const auto& blocks = found->mechanism.blocks;
@@ -212,7 +211,8 @@ class Run {
 
   void follow() {
     prove_failure();
-    next_proof_ = sim_.motion.state.steps + first_proof;
+    followed_ = sim_.motion.state.steps;
+    next_proof_ = followed_ + first_proof;
     step_to(sim_.motion.state.time + most_steps * sim_.control.limit);
     if (!over_) end_by(holding_.at_end(sim_));
   }
@@ -228,9 +228,13 @@ class Run {
   /// When blocks had moved by little: joints then lie as they did, so that it shows the mechanism.
   std::optional<Simulation> early_;
   Trial trial_;
-  std::vector<double> strength_;  ///< LawTable::divided_by at the end of the change
-  std::uint64_t next_proof_ = 0;  ///< step
-  const double start_;            ///< s
+  std::vector<double> strength_;                 ///< LawTable::divided_by at the end of the change
+  std::uint64_t followed_ = 0, next_proof_ = 0;  ///< steps: since when, and when the next is due
+  std::atomic<bool> stop_asked_ = false;
+  const ProgramWatch watch_{&stop_asked_, [this] {
+                              if (stops_()) stop_asked_ = true;
+                            }};
+  const double start_;  ///< s
   const std::uint64_t steps_;
   bool over_ = false;
 };

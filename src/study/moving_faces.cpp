@@ -37,6 +37,18 @@ EndMoved end_moved(const Simulation& before, const Simulation& after, std::size_
           dot(is, outward_normal(t_is)) - dot(was, outward_normal(t_was)), norm(was)};
 }
 
+/// The largest motion at the ends whose points are this near each other: edges that have passed
+/// each other have none.
+EndMoved largest_of(const EndMoved (&ends)[2], double near) {
+  EndMoved most{{}, 0.0, 0.0, std::min(ends[0].apart, ends[1].apart)};
+  for (const EndMoved& end : ends) {
+    if (end.apart > near) continue;
+    most.slip = std::max(most.slip, end.slip);
+    most.opening = std::max(most.opening, end.opening);
+  }
+  return most;
+}
+
 }  // namespace
 
 void collect_joints(SeenJoints& joints, const Simulation& before, const Simulation& after,
@@ -57,23 +69,13 @@ void collect_joints(SeenJoints& joints, const Simulation& before, const Simulati
     const double turning = std::abs(rotation[i] - rotation[j]) * length;
     const EndMoved ends[2] = {end_moved(before, after, k, f.now.xi_a[k], f.now.eta_a[k]),
                               end_moved(before, after, k, f.now.xi_b[k], f.now.eta_b[k])};
-    // What counts are points that touch: edges that have passed each other have none.
-    constexpr double touching = 1e-3;
-    const auto touches = [&](const EndMoved& end) {
-      return end.apart <= 2.0 * least + touching * length;
-    };
-    double slip = 0.0, opening = 0.0;
-    for (const EndMoved& end : ends) {
-      if (!touches(end)) continue;
-      slip = std::max(slip, end.slip);
-      opening = std::max(opening, end.opening);
-    }
-    const bool apart = !touches(ends[0]) && !touches(ends[1]);
-    if (apart || std::max({slip, opening, turning}) < least) continue;
+    const double near = 2.0 * least + 1e-3 * length;
+    const EndMoved most = largest_of(ends, near);
+    if (most.apart > near || std::max({most.slip, most.opening, turning}) < least) continue;
     JointData& seen = joints[{i, j, f.law[k]}];
     MovingJoint& joint = seen.joint;
     for (const EndMoved& end : ends) {
-      if (!touches(end)) continue;
+      if (end.apart > near) continue;
       if (std::max(end.slip, end.opening) >= std::max(joint.slip, joint.opening)) {
         joint.place = end.place;
       }
