@@ -6,9 +6,9 @@
 
 namespace edda {
 
-/// A sentence that says why the factor of blocks that deform is below `limit`, that of rigid ones:
-/// what it is with rock and joints ten times as stiff, where that is found within as many steps of
-/// blocks as the search itself may take on a small model, and else how to find it.
+/// A sentence that says how far the factor of blocks that deform is below `limit`, that of rigid
+/// ones. Where these hinge, as arches do, it says what the factor is with rock and joints ten times
+/// as stiff, if that is found within some seconds, and else how to find it.
 std::string why_below_rigid(const Model& model, const Fos& fos, const FosOptions& options,
                             const FosStart& start, const FosResult& found, double limit);
 
