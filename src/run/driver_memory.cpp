@@ -184,6 +184,7 @@ void Driver::list_stages(Archive& a) {
       return;
     }
     ends_.resize(stage_ + (stage_has_ended_ ? 1 : 0));
+    stage_longest_ = std::max(stage_longest_, stage().longest());  // which may have grown
     times_.end_at(stage_start_ + stage_longest_);
   }
   for (std::size_t q = 0; q < ends_.size(); ++q) {
