@@ -11,7 +11,9 @@ namespace edda {
 
 /// At rest a block would move no further than this part of its size, and the forces on it balance
 /// to this part of its weight, or of the mean force that presses it where that is larger.
-inline constexpr double rest_part = 1e-4, balanced_part = 2e-5, rest_times = 5.0;
+inline constexpr double rest_part = 1e-4, balanced_part = 2e-5;
+/// The time in which a block at rest is judged, over sqrt(L/a): rest_time().
+inline constexpr double rest_times = 5.0;
 
 /// Time within which a block at rest would move no further, s: T = rest_times sqrt(L/a), in which
 /// it would fall by twelve times its size L (m) under the acceleration a (m/s2) that acts on it.

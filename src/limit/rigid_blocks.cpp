@@ -313,7 +313,11 @@ RigidForces weights_under(const RigidBlocks& rigid, const Simulation& sim, Vec2 
 }
 
 Vec2 last_gravity(const Simulation& sim) {
-  return gravity_at(sim.scene->model.gravity, sim.attached.loads.slow, at_last, {});
+  return last_gravity(sim, sim.attached.loads.slow);
+}
+
+Vec2 last_gravity(const Simulation& sim, const SlowLoading& slow) {
+  return gravity_at(sim.scene->model.gravity, slow, at_last, {});
 }
 
 LoadFactors last_factors(const Simulation& sim) {

@@ -96,8 +96,9 @@ RigidBlocks carrying(const RigidBlocks& rigid, const std::vector<Id>& blocks);
 /// Weight of the bodies under gravity (m/s2).
 RigidForces weights_under(const RigidBlocks& rigid, const Simulation& sim, Vec2 gravity);
 
-/// Gravity in force, m/s2: that of the model, changed by ramps (SlowLoading).
+/// Gravity in force, m/s2: that of the model, changed by ramps, whose last values count.
 Vec2 last_gravity(const Simulation& sim);
+Vec2 last_gravity(const Simulation& sim, const SlowLoading& slow);
 
 /// Which of the loads act; each [rows] a factor.
 struct LoadFactors {

@@ -14,8 +14,10 @@
 namespace edda {
 namespace {
 
-bool is_free(const BlockSet& b, Id i) {
-  return b.fixed[i] == 0;
+/// E' of block i, Pa: of a bar in the plane.
+double bar_modulus(const BlockSet& b, Id i) {
+  const double mu = b.lame_mu[i], lambda = b.lame_lambda[i];
+  return 4.0 * mu * (lambda + mu) / (lambda + 2.0 * mu);
 }
 
 /// Stiffness of face k, across it and along it, over that of the two blocks behind it.
@@ -49,7 +51,8 @@ bool counts(const Simulation& sim, std::size_t k, Index opening) {
   const FaceSet& f = sim.motion.contacts;
   const Id i = block_of_edge(b, f, k), j = block_of_facing(b, f, k);
   const auto stays = [&](Id block) {
-    return is_free(b, block) && (b.opening.empty() || b.opening[block] != opening);
+    return is_free(b, sim.motion.state, block) &&
+           (b.opening.empty() || b.opening[block] != opening);
   };
   return stays(i) && stays(j) && meets(f, k);
 }
@@ -114,9 +117,7 @@ struct Row {
 double bending_ratio(const Simulation& sim, std::size_t k, Id block, double along) {
   const BlockSet& b = sim.scene->blocks;
   const FaceSet& f = sim.motion.contacts;
-  const double mu = b.lame_mu[block], lambda = b.lame_lambda[block];
-  const double plane = 4.0 * mu * (lambda + mu) / (lambda + 2.0 * mu);
-  return bending_rule(f, k) * f.stiffness[k] / b.thickness * along / plane;
+  return bending_rule(f, k) * f.stiffness[k] / b.thickness * along / bar_modulus(b, block);
 }
 
 std::vector<Row> rows_of(const Simulation& sim) {
@@ -183,16 +184,16 @@ LockedRow locked_row(const Simulation& sim) {
   const std::vector<Row> rows = rows_of(sim);
   for (Id i = 0; i < b.size(); ++i) {
     const Row& row = rows[i];
-    if (!is_free(b, i) || !row.alone || row.joints != 2 || row.other[0] == row.other[1]) continue;
+    if (!is_free(b, sim.motion.state, i) || !row.alone || row.joints != 2 ||
+        row.other[0] == row.other[1])
+      continue;
     const Vec2 centre{b.centroid_x[i], b.centroid_y[i]}, to_first = row.middle[0] - centre,
                                                          to_second = row.middle[1] - centre;
     const bool opposite = dot(to_first, to_second) < -0.7 * norm(to_first) * norm(to_second);
     if (!opposite || !is_bent(sim, unit(row.middle[1] - row.middle[0]))) continue;
     found.blocks.push_back(i);
     found.stiffness += row.stiffness;
-    const double mu = b.lame_mu[i], lambda = b.lame_lambda[i];
-    found.kn +=
-        4.0 * mu * (lambda + mu) / (lambda + 2.0 * mu) / norm(row.middle[1] - row.middle[0]);
+    found.kn += bar_modulus(b, i) / norm(row.middle[1] - row.middle[0]);
   }
   if (found.blocks.empty()) return found;
   const auto count = static_cast<double>(found.blocks.size());
@@ -209,10 +210,8 @@ void warn_of_locking(const Simulation& sim, std::vector<std::string>& warnings) 
     warnings.push_back(fmt::format(
         "the elastic closure of {} comes out about {:.0f} % too small: blocks of {:.2g} m have one "
         "strain each and do not bend, and the joints around an opening of radius {:.2g} m are "
-        "{:.2g} "
-        "times as stiff as they are; use smaller blocks there, triangles, or the measured kn of "
-        "the "
-        "joints (theory, section 4.9)",
+        "{:.2g} times as stiff as they are; use smaller blocks there, triangles, or the measured "
+        "kn of the joints (theory, section 4.9)",
         row_label("opening", sim.scene->model.openings[o.opening].name, o.opening), 100.0 * o.lost,
         o.size, o.radius, o.stiffness));
   }
@@ -222,8 +221,7 @@ void warn_of_locking(const Simulation& sim, std::vector<std::string>& warnings) 
       "the bending deflection of {} glued in a row ({} first) comes out about {:.0f} % too small: "
       "blocks have one strain each and do not bend, and the joints across the row are {:.2g} times "
       "too stiff to bend for them; give these joints kn = E/c = {:.2g} Pa/m, with the length c of "
-      "a "
-      "block along the row (theory, section 4.9)",
+      "a block along the row (theory, section 4.9)",
       counted(row.blocks.size(), "block"), block_label(sim.scene->blocks, row.blocks.front()),
       100.0 * row.lost, row.stiffness, row.kn));
 }

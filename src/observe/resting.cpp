@@ -42,9 +42,7 @@ std::vector<std::uint8_t> supported_blocks(const Simulation& sim, Vec2 down) {
   const BoundarySprings& s = sim.attached.springs;
   for (std::size_t i = 0; i < sim.scene->blocks.size(); ++i) {
     for (Id q = s.block_begin[i]; q < s.block_begin[i + 1]; ++q) {
-      const double along = down.x * (s.kxx[q] * down.x + s.kxy[q] * down.y) +
-                           down.y * (s.kxy[q] * down.x + s.kyy[q] * down.y);
-      if (along > 1e-9 * (s.kxx[q] + s.kyy[q])) supported[i] = 1;
+      if (carries_along(s.kxx[q], s.kyy[q], s.kxy[q], down)) supported[i] = 1;
     }
   }
   for (const Id i : sim.attached.loads.blocks) supported[i] = 1;
@@ -122,6 +120,12 @@ std::string group_label(const Simulation& sim, const BlockGroup& group) {
 }
 
 }  // namespace
+
+bool carries_along(double kxx, double kyy, double kxy, Vec2 d) {
+  constexpr double rounding = 1e-9;
+  const double along = d.x * (kxx * d.x + kxy * d.y) + d.y * (kxy * d.x + kyy * d.y);
+  return along > rounding * (kxx + kyy);
+}
 
 std::vector<BlockGroup> unsupported_blocks(const Simulation& sim) {
   const double g = norm(sim.scene->model.gravity);

@@ -11,6 +11,9 @@ namespace edda {
 
 using BlockGroup = std::vector<Id>;  ///< blocks that touch each other or share a bolt, ascending
 
+/// Whether a spring of this symmetric matrix (N/m) carries force along a unit vector.
+bool carries_along(double kxx, double kyy, double kxy, Vec2 direction);
+
 /// The groups without support at the start, by their first block. Without gravity there are none.
 /// Blocks with a given velocity are meant to fly, those with loads may be supported by them, and
 /// those above something fixed are meant to fall on it: none of these counts. A boundary supports

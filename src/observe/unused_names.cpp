@@ -8,6 +8,7 @@
 
 #include "model/files/accelerogram.hpp"
 #include "model/stage_names.hpp"
+#include "observe/resting.hpp"
 
 namespace edda {
 namespace {
@@ -177,9 +178,7 @@ std::vector<bool> carries_weight(const Simulation& sim) {
   const BoundarySprings& s = sim.attached.springs;
   for (std::size_t q = 0; q < s.size(); ++q) {
     const auto& [kxx, kyy, kxy] = s.acting_k[q];
-    const double along =
-        down.x * (kxx * down.x + kxy * down.y) + down.y * (kxy * down.x + kyy * down.y);
-    if (along > 1e-9 * (kxx + kyy)) carries[static_cast<std::size_t>(s.boundary[q])] = true;
+    if (carries_along(kxx, kyy, kxy, down)) carries[static_cast<std::size_t>(s.boundary[q])] = true;
   }
   return carries;
 }

@@ -72,12 +72,6 @@ std::vector<Id> staying(const Simulation& sim) {
   return stay;
 }
 
-double area_of(const BlockSet& b, const Mechanism& mechanism) {
-  double area = 0.0;
-  for (const MovingBlock& m : mechanism.blocks) area += b.area[m.id];
-  return area;
-}
-
 }  // namespace
 
 std::optional<LimitMotion> without_equilibrium(const Simulation& sim,
@@ -107,9 +101,8 @@ std::optional<LimitMotion> without_equilibrium(const Simulation& sim,
     if (!found.solved || found.holds() || !(found.excess > at_rest)) return {};
     std::optional<LimitMotion> motion = limit_motion(now, rigid, found.state);
     if (!motion || motion->mechanism.blocks.empty()) return {};
-    if (area_of(b, motion->mechanism) >= least_area) return motion;
-    stay.clear();
-    for (const MovingBlock& m : motion->mechanism.blocks) stay.push_back(m.id);
+    if (area_of(motion->mechanism, b) >= least_area) return motion;
+    stay = blocks_of(motion->mechanism);
   }
 }
 

@@ -11,7 +11,6 @@
 #include <utility>
 #include <vector>
 
-#include "base/pace.hpp"
 #include "results/machine.hpp"
 #include "step/labels.hpp"
 #include "study/fos.hpp"
@@ -168,8 +167,7 @@ class FosSearch {
     one.made.end = start_.sim;
     const Loading to = loading_of(fos_, model_, start_.given, one.factor);
     one.made.trial = run_trial(*one.made.end, plan_at(one.factor, start_), to, [&] {
-      if (options_.progress && one.factor == needed_ && pace_.due())
-        options_.progress(so_far(one.factor, *one.made.end));
+      if (one.factor == needed_) tell_progress(options_, pace_, one.factor, *one.made.end);
       return stopped() || stop.stop_requested();
     });
     one.made.trial.factor = one.factor;

@@ -6,15 +6,6 @@
 #include "base/text.hpp"
 
 namespace edda {
-namespace {
-
-double area_of(const BlockSet& b, const std::vector<Id>& blocks) {
-  double area = 0.0;
-  for (const Id i : blocks) area += b.area[i];
-  return area;
-}
-
-}  // namespace
 
 const Trial* trial_at(const std::vector<Trial>& trials, double factor) {
   const auto found = std::find_if(trials.begin(), trials.end(),
@@ -61,10 +52,8 @@ std::optional<Mechanism> first_mechanism(const FosStart& start, const FosResult&
 std::optional<FailedSet> first_set(const FosResult& r, const BlockSet& b) {
   const Trial* const trial = r.fails ? trial_at(r.trials, *r.fails) : nullptr;
   if (trial == nullptr || trial->failed.empty() || !r.mechanism) return {};
-  FailedSet set{r.holds.value_or(0.0), *r.fails, {}, 0.0, r.mechanism->text};
-  for (const MovingBlock& m : r.mechanism->blocks) set.blocks.push_back(m.id);
-  set.area = area_of(b, set.blocks);
-  return set;
+  return FailedSet{r.holds.value_or(0.0), *r.fails, blocks_of(*r.mechanism),
+                   area_of(*r.mechanism, b), r.mechanism->text};
 }
 
 void find_later_sets(const Model& model, const Fos& fos, FosStart start, const FosOptions& options,

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <limits>
 
-#include "base/pace.hpp"
 #include "model/stage_names.hpp"
 #include "observe/balance.hpp"
 #include "study/fault_at.hpp"
@@ -272,8 +271,10 @@ TrialPlan plan_at(double factor, const FosStart& start) {
   return plan;
 }
 
-std::string so_far(double factor, const Simulation& sim) {
-  return fmt::format("trying {:.6g}: {} steps so far", factor, sim.motion.state.steps);
+void tell_progress(const FosOptions& options, Pace& pace, double factor, const Simulation& sim) {
+  constexpr std::uint64_t looks = 64;  // steps from one look at the clock to the next
+  if (!options.progress || sim.motion.state.steps % looks != 0 || !pace.due()) return;
+  options.progress(fmt::format("trying {:.6g}: {} steps so far", factor, sim.motion.state.steps));
 }
 
 Result<FosStart> start_trials(const Model& model, const Fos& fos, const FosOptions& options) {
@@ -291,7 +292,7 @@ Result<FosStart> start_trials(const Model& model, const Fos& fos, const FosOptio
   s.rigid = rigid_limit(model, fos, s.sim.scene->blocks.size(), limit);
   Pace pace;
   Trial trial = run_trial(as_given, plan_at(given, s), s.given, [&] {
-    if (options.progress && pace.due()) options.progress(so_far(given, as_given));
+    tell_progress(options, pace, given, as_given);
     return stopped(options);
   });
   trial.factor = given;

@@ -1,6 +1,7 @@
 // The equilibrium state from which the trials of a factor start.
 #pragma once
 
+#include "base/pace.hpp"
 #include "run/run_model.hpp"
 #include "study/fos.hpp"
 #include "study/fos_rigid.hpp"
@@ -27,8 +28,8 @@ struct FosStart {
 Loading loading_of(const Fos& fos, const Model& model, const Loading& given, double factor);
 TrialPlan plan_at(double factor, const FosStart& start);
 
-/// How far a trial is, as a line of progress.
-std::string so_far(double factor, const Simulation& sim);
+/// Reports how far the trial of this factor is, where a line of progress is due.
+void tell_progress(const FosOptions& options, Pace& pace, double factor, const Simulation& sim);
 
 /// Brings the model to equilibrium. With stages: runs them to the end of the one named, and with a
 /// thousand times the strength of the joints where they do not reach equilibrium otherwise. Without

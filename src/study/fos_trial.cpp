@@ -150,7 +150,7 @@ class Run {
     if (!found) return;
     early_.reset();
     const auto& blocks = found->mechanism.blocks;
-    for (const MovingBlock& m : blocks) trial_.failed.push_back(m.id);
+    trial_.failed = blocks_of(found->mechanism);
     end(TrialEnd::fails, "rigid blocks have no equilibrium");
     trial_.block = std::max_element(blocks.begin(), blocks.end(), [](const auto& m, const auto& n) {
                      return m.largest < n.largest;

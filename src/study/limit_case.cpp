@@ -52,8 +52,7 @@ Vec2 LimitCase::gravity_with(double value) const {
   SlowLoading slow = sim_.attached.loads.slow;
   if (SteppedValue* const varied = slow_value(slow, fos_.varied, fos_.target))
     *varied = {value, value};
-  constexpr double at_last = 1e30;  // s
-  return gravity_at(sim_.scene->model.gravity, slow, at_last, {});
+  return last_gravity(sim_, slow);
 }
 
 double* LimitCase::factor_of_varied(LoadFactors& factors) const {

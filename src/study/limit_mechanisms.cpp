@@ -63,10 +63,8 @@ bool LimitMechanisms::find_next() {
   const BlockSet& b = drawn_.scene->blocks;
   if (motion) {
     next.text = motion->mechanism.text;
-    for (const MovingBlock& m : motion->mechanism.blocks) {
-      next.blocks.push_back(m.id);
-      next.area += b.area[m.id];
-    }
+    next.blocks = blocks_of(motion->mechanism);
+    next.area = area_of(motion->mechanism, b);
   }
   next.left_out = motion && next.area < least_area_;
   ended_ = next.blocks.empty();

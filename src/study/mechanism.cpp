@@ -240,6 +240,18 @@ Mechanism mechanism_of(const Simulation& before, const Simulation& after, double
   return m;
 }
 
+std::vector<Id> blocks_of(const Mechanism& mechanism) {
+  std::vector<Id> blocks;
+  for (const MovingBlock& m : mechanism.blocks) blocks.push_back(m.id);
+  return blocks;
+}
+
+double area_of(const Mechanism& mechanism, const BlockSet& b) {
+  double area = 0.0;
+  for (const MovingBlock& m : mechanism.blocks) area += b.area[m.id];
+  return area;
+}
+
 static bool has_lost_cohesion(const Mechanism& m) {
   constexpr double little = 0.01;
   return m.cohesion_lost_length > little * m.brittle_length;

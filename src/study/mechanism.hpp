@@ -83,6 +83,10 @@ struct Mechanism {
 /// falls.
 Mechanism mechanism_of(const Simulation& before, const Simulation& after, double moving = 0.1);
 
+/// Rows of the BlockSet that move, ascending, and the area of them all, m2.
+std::vector<Id> blocks_of(const Mechanism& mechanism);
+double area_of(const Mechanism& mechanism, const BlockSet& b);
+
 /// Determines how much cohesion the mechanism's joints had lost in the state `stable`, which
 /// is the last stable one.
 void find_lost_cohesion(Mechanism& mechanism, const Simulation& stable);
