@@ -226,7 +226,7 @@ inline Polar polar(const BlockStress& s, double t) {
           (s.yy - s.xx) * c * n + s.xy * (c * c - n * n)};
 }
 
-/// `bound`: infinite where no error is to be compared with a bound.
+/// `bound` of each error.
 inline Errors compare(const Simulation& sim, const Mass& mass, double size, double bound) {
   const std::string label = "blocks of " + brief(size) + " radii";
   const BlockSet& b = sim.scene->blocks;
