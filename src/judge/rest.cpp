@@ -31,6 +31,31 @@ double force_on(const Simulation& sim, std::size_t i, double rounding) {
   return std::max(resultant_on(sim, i) - rounding, 0.0);
 }
 
+/// Sums over the faces and supports of each block, [nb] N.
+struct NormalSums {
+  std::vector<double> rounding;  ///< forces that follow from the rounding of coordinates: a small
+                                 ///< block wedged between large ones does not balance any better
+  std::vector<double> pressed;   ///< half of the normal forces
+};
+
+/// Of the blocks of which this is 1, [nb].
+NormalSums normal_sums(const Simulation& sim, const std::vector<std::uint8_t>& of) {
+  const BlockSet& b = sim.scene->blocks;
+  const FaceSet& f = sim.motion.contacts;
+  NormalSums sums{std::vector<double>(b.size(), 0.0), std::vector<double>(b.size(), 0.0)};
+  const std::vector<NormalNow> normals = normals_now(sim, of);
+  for (std::size_t k = 0; k < f.size(); ++k) {
+    for (const Id i : {block_of_edge(b, f, k), block_of_facing(b, f, k)}) {
+      sums.rounding[i] += 0.5 * f.noise * normals[k].spring;
+      sums.pressed[i] += 0.5 * std::max(normals[k].force, 0.0);
+    }
+  }
+  const BoundarySprings& s = sim.attached.springs;
+  for (std::size_t q = 0; q < s.size(); ++q)
+    sums.rounding[b.vertex_block[s.vertex[q]]] += f.noise * std::max(s.kxx[q], s.kyy[q]);
+  return sums;
+}
+
 }  // namespace
 
 double rest_time(double size, double acceleration) {
@@ -54,27 +79,11 @@ double acceleration_on(const Simulation& sim, const LoadsNow& acting, std::size_
   return norm(load_on(b, acting, sim.motion.pose, i)) / b.mass[i];
 }
 
-std::vector<double> rounding_of_forces(const Simulation& sim) {
-  std::vector<double> force(sim.scene->blocks.size(), 0.0);
-  const FaceSet& f = sim.motion.contacts;
-  const std::vector<double> springs = normal_springs_now(sim);
-  for (std::size_t k = 0; k < f.size(); ++k) {
-    if (springs[k] == 0.0) continue;
-    for (const Id i :
-         {block_of_edge(sim.scene->blocks, f, k), block_of_facing(sim.scene->blocks, f, k)}) {
-      force[i] += 0.5 * f.noise * springs[k];
-    }
-  }
-  const BoundarySprings& s = sim.attached.springs;
-  for (std::size_t q = 0; q < s.size(); ++q)
-    force[sim.scene->blocks.vertex_block[s.vertex[q]]] += f.noise * std::max(s.kxx[q], s.kyy[q]);
-  return force;
-}
-
 bool forces_are_rounding(const Simulation& sim) {
-  const std::vector<double> rounding = rounding_of_forces(sim);
-  for (std::size_t i = 0; i < rounding.size(); ++i) {
-    if (is_free(sim.scene->blocks, sim.motion.state, i) && force_on(sim, i, rounding[i]) > 0.0)
+  const std::size_t nb = sim.scene->blocks.size();
+  const NormalSums sums = normal_sums(sim, std::vector<std::uint8_t>(nb, 1));
+  for (std::size_t i = 0; i < nb; ++i) {
+    if (is_free(sim.scene->blocks, sim.motion.state, i) && force_on(sim, i, sums.rounding[i]) > 0.0)
       return false;
   }
   return true;
@@ -130,41 +139,40 @@ void SlowingDown::look(const Simulation& sim) {
 
 namespace {
 
-/// Half of the sum of the normal forces on each block, [nb] N.
-std::vector<double> pressed_blocks(const Simulation& sim) {
-  const FaceSet& f = sim.motion.contacts;
-  const std::vector<double> normal = normal_forces_now(sim);
-  std::vector<double> pressed(sim.scene->blocks.size(), 0.0);
-  for (std::size_t k = 0; k < normal.size(); ++k) {
-    pressed[block_of_edge(sim.scene->blocks, f, k)] += 0.5 * std::max(normal[k], 0.0);
-    pressed[block_of_facing(sim.scene->blocks, f, k)] += 0.5 * std::max(normal[k], 0.0);
-  }
-  return pressed;
+/// As blocks_at_rest(), under the resultant `force` (N) and pressed by `pressed` (N).
+bool is_at_rest(const Simulation& sim, const LoadsNow& acting, const SlowingDown* slowing,
+                std::size_t i, double force, double pressed) {
+  const BlockSet& b = sim.scene->blocks;
+  const State& s = sim.motion.state;
+  const double most = rest_part * size_of(sim, i);
+  const double own = acceleration_on(sim, acting, i);
+  const double weight = std::max(pressed, b.mass[i] * (own > 0.0 ? own : usual_acceleration));
+  const bool stiff = sim.stepper->remaining_travel(sim, i, force) <= most;
+  if (slowing == nullptr) return stiff;
+  if (stiff && slowing->to_come(i) <= most && force <= balanced_part * weight) return true;
+  const double speed =
+      norm(centroid(s.vx, s.vy, i)) * std::sqrt(inertia_of(sim.motion.masses, i) / b.mass[i]);
+  const double time = rest_time(size_of(sim, i), own);
+  return speed * time + 0.5 * force / b.mass[i] * time * time <= most;
 }
 
 }  // namespace
 
 std::vector<std::uint8_t> blocks_at_rest(const Simulation& sim, const SlowingDown* slowing) {
   const BlockSet& b = sim.scene->blocks;
-  const State& s = sim.motion.state;
-  const std::vector<double> rounding = rounding_of_forces(sim), pressed = pressed_blocks(sim);
-  const LoadsNow acting = loads_at(sim.scene->model, sim.attached.loads, s.time);
-  std::vector<std::uint8_t> rest(b.size(), 1);
+  const LoadsNow acting = loads_at(sim.scene->model, sim.attached.loads, sim.motion.state.time);
+  // What would move too far without any force on it does so under all, which then need not be
+  // known.
+  std::vector<std::uint8_t> slow(b.size(), 0), rest(b.size(), 1);
   for (std::size_t i = 0; i < b.size(); ++i) {
-    if (!is_free(b, s, i)) continue;
-    const double most = rest_part * size_of(sim, i);
-    const double force = force_on(sim, i, rounding[i]);
-    const double own = acceleration_on(sim, acting, i);
-    const double weight = std::max(pressed[i], b.mass[i] * (own > 0.0 ? own : usual_acceleration));
-    const bool stiff = sim.stepper->remaining_travel(sim, i, force) <= most;
-    if (stiff &&
-        (slowing == nullptr || (slowing->to_come(i) <= most && force <= balanced_part * weight)))
-      continue;
-    const double speed =
-        norm(centroid(s.vx, s.vy, i)) * std::sqrt(inertia_of(sim.motion.masses, i) / b.mass[i]);
-    const double time = rest_time(size_of(sim, i), own);
-    const double travel = speed * time + 0.5 * force / b.mass[i] * time * time;
-    rest[i] = slowing != nullptr && travel <= most ? 1 : 0;
+    if (!is_free(b, sim.motion.state, i)) continue;
+    slow[i] = rest[i] = is_at_rest(sim, acting, slowing, i, 0.0, 0.0) ? 1 : 0;
+  }
+  const NormalSums sums = normal_sums(sim, slow);
+  for (std::size_t i = 0; i < b.size(); ++i) {
+    if (slow[i] == 0) continue;
+    const double force = force_on(sim, i, sums.rounding[i]);
+    rest[i] = is_at_rest(sim, acting, slowing, i, force, sums.pressed[i]) ? 1 : 0;
   }
   return rest;
 }

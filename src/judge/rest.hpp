@@ -25,10 +25,6 @@ double longest_rest_time(const Simulation& sim);
 /// Acceleration of gravity, or that of the loads on block i where there is none, m/s2.
 double acceleration_on(const Simulation& sim, const LoadsNow& acting, std::size_t i);
 
-/// Forces at each block that follow from the rounding of coordinates, [nb] N. A small block wedged
-/// between large ones does not balance any better.
-std::vector<double> rounding_of_forces(const Simulation& sim);
-
 /// Whether no block has a resultant beyond the rounding of the forces on it, as where nothing acts
 /// on the model.
 bool forces_are_rounding(const Simulation& sim);

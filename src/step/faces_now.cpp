@@ -70,40 +70,44 @@ bool is_closed_now(const Simulation& sim, std::size_t k) {
   return t.remembers(lane_bits::stored, k) || (c.bonded[k] > 0.0 && t.remembers(lane_bits::on, k));
 }
 
-double normal_force_now(const Simulation& sim, std::size_t k) {
-  if (!is_closed_now(sim, k)) return 0.0;
-  if (!sim.leapfrog.tiled.ahead) return normal_force(sim.motion.contacts, k);
-  const Face face = face_now(sim, k);
-  return face.normal.a + face.normal.b + pressure_of_dashpots(sim, k);
-}
-
 namespace {
 
-double normal_spring_now(const Simulation& sim, std::size_t k) {
-  if (!is_closed_now(sim, k)) return 0.0;
+NormalNow normal_now(const Simulation& sim, std::size_t k) {
+  if (!is_closed_now(sim, k)) return {};
   const FaceSet& c = sim.motion.contacts;
-  if (!sim.leapfrog.tiled.ahead) return c.stiffness[k] * c.now.length[k] * c.now.gate[k];
+  if (!sim.leapfrog.tiled.ahead)
+    return {normal_force(c, k), c.stiffness[k] * c.now.length[k] * c.now.gate[k]};
   const Face face = face_now(sim, k);
-  return c.stiffness[k] * std::max(face.length, 0.0) * face.gate;
+  return {face.normal.a + face.normal.b + pressure_of_dashpots(sim, k),
+          c.stiffness[k] * std::max(face.length, 0.0) * face.gate};
 }
 
-template <class Value>
-std::vector<double> of_all_faces(const Simulation& sim, Value value) {
-  std::vector<double> values(sim.motion.contacts.size());
+template <class Value, class Of>
+std::vector<Value> of_all_faces(const Simulation& sim, Of of) {
+  std::vector<Value> values(sim.motion.contacts.size());
   constexpr std::size_t cost = 100 / seldom;  // ns, of closed faces and open ones
   parallel_for(
-      values.size(), [&](std::size_t k) { values[k] = value(sim, k); }, cost);
+      values.size(), [&](std::size_t k) { values[k] = of(k); }, cost);
   return values;
 }
 
 }  // namespace
 
-std::vector<double> normal_forces_now(const Simulation& sim) {
-  return of_all_faces(sim, normal_force_now);
+double normal_force_now(const Simulation& sim, std::size_t k) {
+  return normal_now(sim, k).force;
 }
 
-std::vector<double> normal_springs_now(const Simulation& sim) {
-  return of_all_faces(sim, normal_spring_now);
+std::vector<double> normal_forces_now(const Simulation& sim) {
+  return of_all_faces<double>(sim, [&](std::size_t k) { return normal_force_now(sim, k); });
+}
+
+std::vector<NormalNow> normals_now(const Simulation& sim, const std::vector<std::uint8_t>& of) {
+  const BlockSet& b = sim.scene->blocks;
+  const FaceSet& c = sim.motion.contacts;
+  return of_all_faces<NormalNow>(sim, [&](std::size_t k) {
+    const bool wanted = of[block_of_edge(b, c, k)] != 0 || of[block_of_facing(b, c, k)] != 0;
+    return wanted ? normal_now(sim, k) : NormalNow{};
+  });
 }
 
 DeepestNow deepest_now(const Simulation& sim, double above) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "base/vec2.hpp"
@@ -20,8 +21,13 @@ double normal_force_now(const Simulation& sim, std::size_t k);
 
 std::vector<double> normal_forces_now(const Simulation& sim);  ///< [nf]
 
-/// Stiffness w W k L of each face across itself, [nf], N/m; 0 where it is not closed.
-std::vector<double> normal_springs_now(const Simulation& sim);
+/// Across a face; 0 where it is not closed.
+struct NormalNow {
+  double force = 0.0;   ///< N, as normal_force_now()
+  double spring = 0.0;  ///< N/m, its stiffness w W k L
+};
+/// Of the faces of the blocks of which this is 1, [nb]; 0 for all others, [nf].
+std::vector<NormalNow> normals_now(const Simulation& sim, const std::vector<std::uint8_t>& of);
 
 /// Where blocks overlap most: the face with the largest ratio of closure to the inscribed radius of
 /// the narrower block, of those at which they overlap (overlap_where_pressed()).
