@@ -50,10 +50,26 @@ struct FosBracket {
     }
   }
 
-  /// Whether a trial of this factor may still add information.
-  bool may_ask(double factor) const {
-    return (below && factor <= *below) || (!(holds && factor <= low) && !(fails && factor >= high));
+  /// Whether this factor holds, as trials have shown of it, of a higher one or of a lower one.
+  std::optional<bool> shown(double factor) const {
+    if (holds && factor <= low) return true;
+    if (fails && factor >= high) return false;
+    return {};
   }
+
+  /// Whether a trial of this factor may still add information.
+  bool may_ask(double factor) const { return (below && factor <= *below) || !shown(factor); }
 };
+
+/// This search, as far as the outcomes of its trials are known.
+template <class Outcome>
+FosBracket followed(FosBracket search, Outcome known) {
+  while (const std::optional<double> factor = search.next()) {
+    const std::optional<bool> holds = known(*factor);
+    if (!holds) break;
+    search.take(*factor, *holds);
+  }
+  return search;
+}
 
 }  // namespace edda

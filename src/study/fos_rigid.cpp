@@ -59,6 +59,12 @@ BesideLimits beside_limits(double factor, double least, double most) {
   return one ? BesideLimits::agrees : BesideLimits::between;
 }
 
+bool limits_agree(const LimitResult& limit) {
+  const double most = limit.largest.upper;
+  return limit.largest.status == LimitEnd::found &&
+         beside_limits(most, least_limit(limit), most) == BesideLimits::agrees;
+}
+
 std::optional<double> factor_below(const FosBracket& bracket, const RigidLimit& limit) {
   constexpr double worth = 0.95;
   if (!limit || limit->largest.status != LimitEnd::found) return {};

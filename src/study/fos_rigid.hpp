@@ -40,6 +40,8 @@ double least_limit(const LimitResult& limit);
 /// three do, within 2 %.
 enum class BesideLimits { below, between, agrees };
 BesideLimits beside_limits(double factor, double least, double most);
+/// Whether these limits have been found, and are one within 2 %.
+bool limits_agree(const LimitResult& limit);
 
 /// Between the lowest limit of rigid blocks and the highest factor that holds, where there is room:
 /// the model may fail there, too, since how it comes to rest depends on what its joints have done.

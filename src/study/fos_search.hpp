@@ -47,16 +47,18 @@ class FosSearch {
         options_(options),
         result_(result),
         bracket_(begin),
+        begin_(begin),
         trials_(options.threads,
                 tasks_within(memory_here(), options.threads, start.sim.scene->blocks.size())) {
     for (const Trial& trial : start.seen) count(trial);
     if (begin.low != fos.bracket.x || begin.high != fos.bracket.y)
       bracket_ = begin;  // to where these trials are far away
+    begin_ = bracket_;
   }
 
   /// Searches until the bracket is narrow enough, or until it is stopped. Returns the bracket.
   FosBracket go() {
-    for (auto needed = bracket_.next(); needed && !stopped(); needed = bracket_.next()) {
+    for (auto needed = next(); needed && !stopped(); needed = next()) {
       needed_ = *needed;
       make(*needed);
       const auto found = made_.find(*needed);
@@ -71,6 +73,7 @@ class FosSearch {
   FosBracket look_below(double factor) {
     bracket_.below = factor;
     bracket_.widened = 0;
+    begin_ = bracket_;
     return go();
   }
 
@@ -105,6 +108,43 @@ class FosSearch {
         trial.block == no_id ? "no block" : block_label(start_.sim.scene->blocks, trial.block)));
   }
 
+  /// The search by halving alone, after what trials have shown.
+  FosBracket halved() const {
+    return followed(begin_, [&](double factor) {
+      return factor == bracket_.below ? std::nullopt : bracket_.shown(factor);
+    });
+  }
+
+  /// The ends of the bracket to which halving comes where rigid blocks have their limit, the one
+  /// that fails first, as long as they are not tried and no trial contradicts that limit.
+  std::vector<double> ends_at_limit() const {
+    const RigidLimit& rigid = start_.rigid;
+    if (start_.wide || !start_.as_drawn || !rigid || !limits_agree(*rigid)) return {};
+    const double limit = rigid->largest.lower;
+    if (bracket_.shown(limit)) return {};
+    const FosBracket last =
+        followed(halved(), [&](double factor) { return std::optional(factor < limit); });
+    std::vector<double> ends;
+    for (const double end : {last.high, last.low}) {
+      if (!last.gave_up() && !bracket_.shown(end)) ends.push_back(end);
+    }
+    return ends;
+  }
+
+  std::optional<double> next() const {
+    const std::vector<double> ends = ends_at_limit();
+    return ends.empty() ? halved().next() : ends.front();
+  }
+
+  /// Factors of which trials are wanted now, the one that the search needs first.
+  std::vector<double> wanted() const {
+    std::vector<double> ends = ends_at_limit();
+    if (ends.empty())
+      return likely_factors(halved(), trials_.places(), [&](double f) { return outcome_of(f); });
+    std::erase_if(ends, [&](double end) { return made_.contains(end); });
+    return ends;
+  }
+
   bool stopped() const {
     return options_.stop != nullptr && options_.stop->load(std::memory_order_relaxed);
   }
@@ -113,10 +153,9 @@ class FosSearch {
   /// Returns once it has ended or the search has been stopped.
   void make(double needed) {
     while (!made_.contains(needed) && !stopped()) {
-      const std::vector<double> wanted =
-          likely_factors(bracket_, trials_.places(), [&](double f) { return outcome_of(f); });
-      make_room(wanted);
-      for (const double factor : wanted) {
+      const std::vector<double> first = wanted();
+      make_room(first);
+      for (const double factor : first) {
         if (trials_.has_room() && !is_tried(factor)) begin(factor);
       }
       const auto ended = trying_.extract(trials_.wait_for_one());
@@ -187,7 +226,8 @@ class FosSearch {
   FosStart& start_;
   const FosOptions& options_;
   FosResult& result_;
-  FosBracket bracket_;
+  FosBracket bracket_;                ///< what trials have shown
+  FosBracket begin_;                  ///< which the search halves
   std::atomic<double> needed_ = 0.0;  ///< factor of the trial that the search waits for
   Pace pace_;
   std::optional<Simulation> stable_;

@@ -62,6 +62,26 @@ TEST(FosBracket, ToleranceIsAPartOfTheFactor) {
   }
 }
 
+/// As far as outcomes are known; with all of them it is complete, wherever its ends had to go.
+TEST(FosBracket, FollowsWhatIsKnown) {
+  const auto below = [](double factor) { return std::optional(factor < 1.6); };
+  const FosBracket last = followed(FosBracket{1.0, 2.0, 0.25}, below);
+  EXPECT_EQ(last.low, 1.5);
+  EXPECT_EQ(last.high, 1.75);
+  EXPECT_EQ(last.next(), std::nullopt);
+  const FosBracket some =
+      followed(FosBracket{1.0, 2.0, 0.25}, [&](double factor) { return last.shown(factor); });
+  EXPECT_EQ(some.next(), std::nullopt);
+  FosBracket shown{1.0, 2.0, 0.25};
+  shown.take(1.75, false);
+  EXPECT_EQ(shown.shown(1.8), false);
+  EXPECT_EQ(shown.shown(1.7), std::nullopt);
+  EXPECT_EQ(
+      followed(FosBracket{1.0, 2.0, 0.25, true}, [&](double factor) { return shown.shown(factor); })
+          .next(),
+      1.5);
+}
+
 TEST(FosBracket, GivesUp) {
   FosBracket b{1.0, 2.0, 0.5};
   EXPECT_EQ(asked(b, 0.0).back(), 1.0 / 32.0);
