@@ -15,11 +15,8 @@ namespace {
 /// Glues face k temporarily. It carries tension only if both ends are flush: a corner that leans on
 /// an edge is held in shear alone.
 void glue_for_now(FaceSet& c, std::size_t k) {
-  const FaceEnds drawn{c.now.closure_a[k] - c.locked_closure_a[k],
-                       c.now.closure_b[k] - c.locked_closure_b[k]};
   c.saved_bond[k] = 1.0 + c.bonded[k] + 2.0 * c.carries_tension[k];
-  c.glued[k] = c.bonded[k] = 1.0;
-  if (lies_flush_as_drawn(drawn, c.now.length[k])) c.carries_tension[k] = 1.0;
+  c.glued[k] = c.bonded[k] = c.carries_tension[k] = 1.0;
 }
 
 /// Whether the outer fibre of face k is in more tension than its tensile strength.
@@ -147,7 +144,11 @@ void account_failure_energy(FaceSet& c, double lost, std::size_t k) {
 void glue_faces(FaceSet& c, bool also_later) {
   c.gluing = also_later;
   for (std::size_t k = 0; k < c.size(); ++k) {
-    if (meets_within(c, c.noise, k) && c.glued[k] == 0.0) glue_for_now(c, k);
+    const FaceEnds drawn{c.now.closure_a[k] - c.locked_closure_a[k],
+                         c.now.closure_b[k] - c.locked_closure_b[k]};
+    if (c.glued[k] == 0.0 && meets_within(c, c.noise, k) &&
+        lies_flush_as_drawn(drawn, c.now.length[k]))
+      glue_for_now(c, k);
   }
   mark_bonded_chunks(c);
 }
@@ -155,7 +156,9 @@ void glue_faces(FaceSet& c, bool also_later) {
 void glue_pressed(FaceSet& c) {
   bool any = false;
   for (std::size_t k = 0; k < c.size(); ++k) {
-    if (c.glued[k] > 0.0 || c.before.energy[k] == 0.0 || c.now.energy[k] == 0.0) continue;
+    const bool pressed = c.before.energy[k] > 0.0 && c.now.energy[k] > 0.0;
+    const bool whole = std::min(c.now.closure_a[k], c.now.closure_b[k]) >= 0.0;
+    if (c.glued[k] > 0.0 || !pressed || !whole) continue;
     glue_for_now(c, k);
     any = true;
   }

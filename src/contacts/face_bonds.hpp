@@ -56,12 +56,15 @@ void break_bond(FaceSet& faces, const LawTable& laws, const FaceFields<double>& 
 /// energy where it is positive, as `transfer` (no physical process) where it is negative.
 void account_failure_energy(FaceSet& faces, double lost, std::size_t k);
 
-/// glue_faces: joints that touch neither open nor slide from now on. unglue_faces gives them back
-/// the state they had before; tension that is then released is accounted as fracture energy.
+/// glue_faces: joints whose edges lie flush against each other neither open nor slide from now on.
+/// A corner on an edge keeps its friction: a bond there would be a shear spring that no pressure
+/// holds, on an edge that leans now to one side and now to the other, and would create energy.
+/// unglue_faces gives the joints back the state they had before; tension that is then released is
+/// accounted as fracture energy.
 void glue_faces(FaceSet& faces, bool also_later = true);
 void unglue_faces(FaceSet& faces, const BlockSet& blocks, const Pose& pose);
 /// In a stage that glues its joints: glues what has come into contact since, once it has been
-/// pressed for a whole step.
+/// pressed for a whole step and is closed from end to end.
 void glue_pressed(FaceSet& faces);
 
 /// Fills `bonds`.

@@ -149,7 +149,9 @@ bool is_at_rest(const Simulation& sim, const LoadsNow& acting, const SlowingDown
   const double weight = std::max(pressed, b.mass[i] * (own > 0.0 ? own : usual_acceleration));
   const bool stiff = sim.stepper->remaining_travel(sim, i, force) <= most;
   if (slowing == nullptr) return stiff;
-  if (stiff && slowing->to_come(i) <= most && force <= balanced_part * weight) return true;
+  if (stiff &&
+      (slowing->is_still(i) || (slowing->to_come(i) <= most && force <= balanced_part * weight)))
+    return true;
   const double speed =
       norm(centroid(s.vx, s.vy, i)) * std::sqrt(inertia_of(sim.motion.masses, i) / b.mass[i]);
   const double time = rest_time(size_of(sim, i), own);

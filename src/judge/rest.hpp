@@ -40,6 +40,11 @@ class SlowingDown {
   /// Distance that block i will still move if it slows down as from the last but one window to the
   /// last, m; infinite where it does not, or where that is not known yet.
   double to_come(std::size_t i) const { return to_come_[i]; }
+  /// Whether the coordinates of block i have not changed at all in the last window: what moves it
+  /// is less than they can tell, as where a sliver has a mass many times its own.
+  bool is_still(std::size_t i) const {
+    return pull_before_ > 0.0 && moved_x_[i] == 0.0 && moved_y_[i] == 0.0;
+  }
   bool fits(std::size_t blocks) const;
   template <class Archive>
   void list(Archive& a, const std::string& of);
@@ -73,7 +78,7 @@ void SlowingDown::list(Archive& a, const std::string& of) {
 /// held it, v T + R/m T^2/2 with T = rest_time(L, a), m its true mass, and v that of the same
 /// kinetic energy with this mass; or against the stiffness of its motion
 /// (Stepper::remaining_travel), if it is also seen to slow down before that and R is at most
-/// balanced_part of its weight. `slowing`: null where only the latter counts.
+/// balanced_part of its weight, or to be still. `slowing`: null where only the stiffness counts.
 std::vector<std::uint8_t> blocks_at_rest(const Simulation& sim, const SlowingDown* slowing);
 
 }  // namespace edda

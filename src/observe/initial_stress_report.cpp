@@ -100,9 +100,9 @@ Vec2 missed_by_field(const Simulation& sim, const FaceForces& faces, std::size_t
   return sum;
 }
 
-/// Normal stress of the ground on free faces along the top of the model that nothing replaces, over
-/// the mean stress: the ground above them is missing.
-double missing_above(const Simulation& sim, const FaceForces& faces, const LoadsNow& now) {
+/// Normal stress of the ground on free faces along the top of the model that leaves their block
+/// out of balance, over the mean stress: the ground above them is missing. `on`: resultants().
+double missing_above(const Simulation& sim, const FaceForces& faces, const std::vector<Vec2>& on) {
   const BlockSet& b = sim.scene->blocks;
   Boundary top;
   top.sides = {"top"};
@@ -110,10 +110,9 @@ double missing_above(const Simulation& sim, const FaceForces& faces, const Loads
   double lost = 0.0, along = 0.0, mean = 0.0, area = 0.0;
   for (const Piece& p : pieces_on(b, boundary_lines(sim.scene->model, b, top), WhichFaces::open,
                                   boundary_snap(sim.scene->model, b), in_joints)) {
-    const EndForces on = faces.on(p.edge, p.part);
-    const double needed = std::abs(on.at_from.y + on.at_to.y),
-                 given = std::abs(load_on(b, now, sim.motion.pose, b.vertex_block[p.edge]).y);
-    lost += std::max(needed - given, 0.0);
+    const EndForces ground = faces.on(p.edge, p.part);
+    lost += std::min(std::abs(ground.at_from.y + ground.at_to.y),
+                     std::abs(on[b.vertex_block[p.edge]].y));
     along += (p.part.to - p.part.from) * b.edge_length[p.edge] * b.thickness;
   }
   for (std::size_t i = 0; i < b.size(); ++i) {
@@ -147,7 +146,7 @@ void judge_balance(const Simulation& sim, InitialBalance& balance) {
     balance.largest = norm(on[i]);
     balance.block = static_cast<Id>(i);
   }
-  balance.top = missing_above(sim, faces, now);
+  balance.top = missing_above(sim, faces, on);
   const double scale = force_scale(sim, free_blocks);
   if (sum == 0.0) return;
   const auto count = static_cast<double>(free_blocks.size());

@@ -81,6 +81,11 @@ class Driver {
   // Stages (run/driver_stages.cpp).
   void begin_stage(std::size_t index);
   double longest_of_stage() const;
+  /// The time at which the stage, or the run, ends at the latest, s.
+  double latest_end_of_stage() const {
+    return stage_start_ + std::max(stage_longest_, stage().longest());
+  }
+  double latest_end() const;
   const Stage& stage() const { return plans_[stage_].stage; }
   /// Result for the present stage; not_yet where it does not end at an equilibrium.
   Equilibrium look_for_equilibrium();

@@ -88,10 +88,7 @@ void Driver::report(bool last) {
   reported_steps_ = sim_.motion.state.steps;
   Progress p;
   p.time = sim_.motion.state.time;
-  // Earlier stages may have ended early, and later ones may, too.
-  double later = 0.0;
-  for (std::size_t q = stage_ + 1; q < plans_.size(); ++q) later += plans_[q].stage.longest();
-  const double end = stage_start_ + std::max(stage_longest_, stage().longest()) + later;
+  const double end = latest_end(), later = end - latest_end_of_stage();
   double gone = sim_.motion.state.time;
   double left = std::max(end - gone, 0.0) / sim_.motion.state.step;
   if (stage().ramp) p.ramp_at = ramp_at(ramp_.increment);

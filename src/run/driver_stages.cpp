@@ -37,6 +37,12 @@ double Driver::longest_of_stage() const {
   return stage().may_last ? std::max(longest, most_steps * sim_.control.limit) : longest;
 }
 
+double Driver::latest_end() const {
+  double end = latest_end_of_stage();
+  for (std::size_t q = stage_ + 1; q < plans_.size(); ++q) end += plans_[q].stage.longest();
+  return end;
+}
+
 Driver::Equilibrium Driver::look_for_equilibrium() {
   const Stage& now = stage();
   if (!now.to_equilibrium()) return Equilibrium::not_yet;

@@ -227,13 +227,15 @@ Result<FosStart> at_rest(const Model& model, const Fos& fos, const FosOptions& o
     Result<Staged> run =
         staged(model, fos, options, fos.varied == Varied::shaking ? 0.0 : 1.0, 1.0);
     if (!run.ok()) return run.faults();
-    if (run.value().in_equilibrium && loose_blocks(run.value().start.sim).empty())
-      return std::move(run.value().start);
+    FosStart& s = run.value().start;
+    const bool stands = run.value().in_equilibrium && loose_blocks(s.sim).empty();
+    if (stands || s.status == FosStatus::interrupted) return std::move(s);
     if (options.say) options.say(run_again(model, run.value()));
   }
   Result<Staged> run = staged(model, fos, options, strength ? 1.0 : 0.0, strong);
   if (!run.ok()) return run.faults();
   FosStart& s = run.value().start;
+  if (s.status == FosStatus::interrupted) return std::move(s);
   if (!run.value().in_equilibrium) {
     s.status = FosStatus::unstable;
     s.message = fmt::format(

@@ -173,10 +173,10 @@ void find_other_end(LimitResult& r, const Simulation& sim, const Fos& fos, const
   if (answer.end == LimitEnd::found)
     r.other_motion = limit_motion(sim, asked.rigid(), answer.state);
   const bool about_zero = changes_gravity(fos.varied) && fos.varied != Varied::gravity;
-  r.other_governs =
-      about_zero && answer.end == LimitEnd::found &&
-      (r.largest.status == LimitEnd::no_limit ||
-       (r.largest.status == LimitEnd::found && std::abs(answer.lower) < std::abs(r.largest.lower)));
+  const double furthest = std::max(std::abs(answer.lower), std::abs(answer.upper));
+  r.other_governs = about_zero && answer.end == LimitEnd::found &&
+                    (r.largest.status == LimitEnd::no_limit ||
+                     (r.largest.status == LimitEnd::found && furthest < std::abs(r.largest.lower)));
 }
 
 void find_residual(LimitResult& r, const LimitCase& asked) {
@@ -271,7 +271,8 @@ std::optional<Fault> nothing_to_fail(const Model& model, const RigidBlocks& rigi
   return fault_at(model, model.solver.where, "block",
                   loose ? "no free block touches anything as drawn, so there are no joints to fail"
                         : "no block is free to move, so nothing can fail",
-                  loose ? "draw the blocks so that they touch, or use edda fos"
+                  loose ? "draw the blocks so that they touch, close the gaps as drawn by "
+                          "contact.close_gaps, or use edda fos"
                         : "leave some blocks that are neither fixed nor excavated");
 }
 
