@@ -184,6 +184,28 @@ TEST(Glue, ReleasesWhatItCarried) {
   EXPECT_EQ(m.force_on(1).y, 0.0);
 }
 
+/// It is glued neither as it stands there nor later, until it lies flat.
+TEST(Glue, ACornerOnAnEdgeKeepsItsFriction) {
+  MovedBlocks m = pressed_square(rough_joint(30.0), 1e-6);
+  const double turned = 0.05, depth = 1e-5,
+               down = 0.5 * (1.0 - std::cos(turned) - std::sin(turned)) + depth;
+  m.put_still(1, {{0.0, -down}, turned});
+  glue_faces(m.faces);
+  for (int n = 1; n <= 100; ++n) {
+    m.go(1, {{1e-5 * n, -down}, turned});
+    glue_pressed(m.faces);
+  }
+  const Vec2 force = m.force_on(1);
+  EXPECT_GT(force.y, 1e3);
+  EXPECT_NEAR(-force.x, tangent(30.0) * force.y, 1e-3 * force.y);
+  for (int n = 1; n <= 3; ++n) {
+    m.go(1, {{1e-3, -depth}});
+    glue_pressed(m.faces);
+  }
+  for (int n = 1; n <= 100; ++n) m.go(1, {{1e-3 + 1e-5 * n, -depth}});
+  EXPECT_GT(-m.force_on(1).x, 10.0 * m.force_on(1).y);
+}
+
 /// Slides the square by `way` in steps of 1e-5 m, with the closure `depth`.
 void slide(MovedBlocks& m, double way, double depth) {
   const int steps = static_cast<int>(way / 1e-5);
