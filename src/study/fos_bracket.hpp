@@ -15,6 +15,8 @@ struct FosBracket {
   int widened = 0;
   std::optional<double> below{};  ///< a factor below `low`, to be tried at last: a model may fail
                                   ///< between factors at which it holds
+  std::optional<double> held{}, failed{};  ///< factors far below `low` and above `high` that have
+                                           ///< been shown to hold and to fail
 
   static constexpr int widest = 5;  ///< largest number of times an end is moved outwards
 
@@ -38,6 +40,11 @@ struct FosBracket {
         high = 2.0 * low;
         fails = false;
         ++widened;
+        if (failed && (high >= *failed || gave_up())) {
+          high = *failed;
+          fails = true;
+          widened = 0;
+        }
       }
     } else if (!stable && (!fails || factor < high)) {
       high = factor;
@@ -46,6 +53,11 @@ struct FosBracket {
         low = 0.5 * high;
         holds = false;
         ++widened;
+        if (held && (low <= *held || gave_up())) {
+          low = *held;
+          holds = true;
+          widened = 0;
+        }
       }
     }
   }

@@ -173,10 +173,12 @@ void find_other_end(LimitResult& r, const Simulation& sim, const Fos& fos, const
   if (answer.end == LimitEnd::found)
     r.other_motion = limit_motion(sim, asked.rigid(), answer.state);
   const bool about_zero = changes_gravity(fos.varied) && fos.varied != Varied::gravity;
+  constexpr double nearer = 1.0 - 1e-6;  // more than rounded coordinates of a symmetric model make
   const double furthest = std::max(std::abs(answer.lower), std::abs(answer.upper));
-  r.other_governs = about_zero && answer.end == LimitEnd::found &&
-                    (r.largest.status == LimitEnd::no_limit ||
-                     (r.largest.status == LimitEnd::found && furthest < std::abs(r.largest.lower)));
+  r.other_governs =
+      about_zero && answer.end == LimitEnd::found &&
+      (r.largest.status == LimitEnd::no_limit ||
+       (r.largest.status == LimitEnd::found && furthest < nearer * std::abs(r.largest.lower)));
 }
 
 void find_residual(LimitResult& r, const LimitCase& asked) {

@@ -375,5 +375,24 @@ TEST(Imports, DrawingsWithoutClosedPolylinesHaveNoBlocks) {
   EXPECT_NE(fault_of(model).find("closed polyline"), std::string::npos);
 }
 
+/// A fault across a square and two joints that end on it, all to 1 mm: the ends miss it by as much.
+TEST(Imports, LinesOfADrawingInMillimetresMeetWithoutADomain) {
+  const auto line = [](const char* x1, const char* y1, const char* x2, const char* y2) {
+    return entity("LINE", {{8, "0"}, {10, x1}, {20, y1}, {11, x2}, {21, y2}});
+  };
+  DxfPairs square{{8, "0"}, {90, "4"}, {70, "1"}};
+  for (const auto& [x, y] : {std::pair{"0", "0"}, {"10", "0"}, {"10", "10"}, {"0", "10"}}) {
+    square.emplace_back(10, x);
+    square.emplace_back(20, y);
+  }
+  const File file("d.dxf",
+                  dxf(entity("LWPOLYLINE", square) + line("0", "3.333", "10", "6.667") +
+                      line("2.5", "4.167", "2.5", "10") + line("5.1", "5.033", "5.1", "10")));
+  const auto made = build_polygons(geo_model(file));
+  ASSERT_TRUE(made.ok()) << reason(made);
+  EXPECT_EQ(made.value().blocks.size(), 4U);
+  EXPECT_NEAR(made.value().report.area_out, 100.0, 1e-6);
+}
+
 }  // namespace
 }  // namespace edda::imports_test

@@ -66,6 +66,30 @@ TEST(Shapes, MarksLieInTheBlock) {
   }
 }
 
+TEST(Shapes, MarksLieBesideAHole) {
+  // A square of 4 m with a hole from 1 m to 1 m + `wide`: not through the middle of the narrow
+  // ones.
+  for (const double wide : {0.5, 1.0, 1.5, 2.0, 2.5}) {
+    const double a = 1.0, b = a + wide;
+    Grid g;
+    g.points = {0, 0, 0, 4, 0, 0, 4, 4, 0, 0, 4, 0, a, a, 0, b, a, 0, b, b, 0, a, b, 0};
+    g.corners = {0, 1, 5, 0, 5, 4, 1, 2, 6, 1, 6, 5, 2, 3, 7, 2, 7, 6, 3, 0, 4, 3, 4, 7};
+    for (int c = 1; c <= 8; ++c) {
+      g.ends.push_back(3 * c);
+      g.types.push_back(cell_type::triangle);
+    }
+    g.cell_fields = {{"id", 1, std::vector<double>(8, 0.0), {}, true}};
+    const auto shapes = block_shapes(g);
+    const Vec2 at = mark_place(g, shapes[0], drawn_points(g, 1.0));
+    const bool in_hole = at.x > a && at.x < b && at.y > a && at.y < b;
+    EXPECT_FALSE(in_hole) << wide;
+    EXPECT_GT(std::min(at.x, at.y), 0.0) << wide;
+    EXPECT_LT(std::max(at.x, at.y), 4.0) << wide;
+    const Vec2 centre = centre_of(g, shapes[0], drawn_points(g, 1.0));
+    EXPECT_TRUE(std::min(centre.x, centre.y) < b || at == centre) << wide;
+  }
+}
+
 TEST(Shapes, MaterialPointsAreFollowed) {
   const Grid g = two_blocks();
   const auto drawn = drawn_points(g, 3.0);

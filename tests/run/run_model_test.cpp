@@ -336,5 +336,26 @@ TEST(RunModel, ProgressCountsFromWhereStagesBeforeHaveEnded) {
     EXPECT_GE(reported[k].fraction, reported[k - 1].fraction);
 }
 
+/// A flake of 15 kg that falls 15 m, tip first, on springs as stiff as those of large blocks.
+TEST(RunModel, AFlakeThatCannotBeSteppedDoesNotEndTheRun) {
+  Result<PreparedRun> run = prepared(
+      "[materials.rock]\ndensity = 2600\nyoung = '40 GPa'\npoisson = 0.18\n[joints.bed]\n"
+      "friction_angle = 41\nkn = '20 GPa/m'\n[[block]]\nfixed = true\n"
+      "polygon = [[-5, -2], [5, -2], [5, 0], [-5, 0]]\n[[block]]\nname = 'flake'\n"
+      "polygon = [[0, 15.0], [0, 15.830559], [0.01406, 15.831789]]\n[solver]\nduration = 2.0\n");
+  ASSERT_TRUE(run.ok());
+  const Outcome o = run_model(run.value(), {}).value();
+  EXPECT_EQ(o.status, Status::completed) << o.message;
+  EXPECT_NEAR(o.time, 2.0, 1e-4);
+  const std::vector<SetAside>& aside = run.value().sim.accounts.set_aside;
+  ASSERT_EQ(aside.size(), 1U);
+  EXPECT_EQ(aside[0].block, 1U);
+  EXPECT_NEAR(aside[0].time, std::sqrt(2.0 * 15.0 / 9.81), 0.01);
+  EXPECT_TRUE(std::any_of(o.failed_checks.begin(), o.failed_checks.end(), [](const auto& check) {
+    return check.find("blocks that were set aside is 1, more than 0: block 1 (flake)") <
+           check.size();
+  }));
+}
+
 }  // namespace
 }  // namespace edda::run_model_test

@@ -165,6 +165,23 @@ TEST(Stages, TimeThatRunsOutIsNoVerdict) {
   }
 }
 
+/// Nor does it end the run.
+TEST(Stages, TimeThatRunsOutIsFollowedByTheNextStage) {
+  PreparedRun ready = prepared(
+      tower("[[stage]]\nname = 'settle'\nuntil = 'equilibrium'\nduration = 0.3\n[[stage]]\n"
+            "duration = 0.01\n[solver]\n",
+            0.5, 10.0));
+  std::string warnings;
+  RunOptions options;
+  options.warn = [&](const std::string& warning) { warnings += warning + "\n"; };
+  const Outcome o = run_model(ready, options).value();
+  EXPECT_EQ(o.status, Status::completed) << o.message;
+  EXPECT_NEAR(o.time, 0.31, 1e-12);
+  EXPECT_EQ(o.unsettled, 1U);
+  EXPECT_NE(warnings.find("is not in equilibrium after 0.3 s"), std::string::npos) << warnings;
+  EXPECT_NE(warnings.find("; the run goes on\n"), std::string::npos) << warnings;
+}
+
 /// Where all blocks slide or fall away the stage does not wait.
 TEST(Stages, AllThatGoesAwayIsACollapse) {
   PreparedRun ready = prepared(tower(

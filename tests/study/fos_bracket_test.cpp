@@ -82,6 +82,23 @@ TEST(FosBracket, FollowsWhatIsKnown) {
       1.5);
 }
 
+/// A factor far away that has been shown to hold, or to fail, is where it goes on instead.
+TEST(FosBracket, ComesBackToWhatIsKnownFarAway) {
+  const auto ends = [](FosBracket b, double limit) {
+    return followed(b, [=](double factor) { return std::optional(factor < limit); });
+  };
+  FosBracket low{1024.0, 2048.0, 0.01};
+  low.held = 1.0;
+  EXPECT_LE(ends(low, 1.7).low, 1.7);
+  EXPECT_NEAR(ends(low, 1.7).high, 1.7, 0.02);
+  EXPECT_FALSE(ends(low, 1.7).gave_up());
+  FosBracket high{1.0 / 2048.0, 1.0 / 1024.0, 0.01};
+  high.failed = 1.0;
+  EXPECT_LE(ends(high, 0.7).low, 0.7);
+  EXPECT_NEAR(ends(high, 0.7).high, 0.7, 0.01);
+  EXPECT_FALSE(ends(high, 0.7).gave_up());
+}
+
 TEST(FosBracket, GivesUp) {
   FosBracket b{1.0, 2.0, 0.5};
   EXPECT_EQ(asked(b, 0.0).back(), 1.0 / 32.0);

@@ -102,5 +102,26 @@ TEST(Fos, WhatGoesOutOverTheToeSlides) {
   EXPECT_EQ(r.mechanism->text, "sliding along bedding: 3 blocks");
 }
 
+/// An arch of seven voussoirs under a horizontal acceleration, which becomes a mechanism of four
+/// hinges at 0.37 g (Oppenheim 1992).
+TEST(Fos, AnArchUnderAccelerationHasFourHinges) {
+  const FosResult r = found(
+      "[materials.stone]\nunit_weight = '24 kN/m3'\nyoung = '10 GPa'\npoisson = 0.2\n"
+      "[joints.mortar]\nfriction_angle = 40\n[[arch]]\nradius = 10\nthickness = 1.5\ncount = 7\n"
+      "from_angle = 11.25\nto_angle = 168.75\n[[block]]\nfixed = true\n"
+      "polygon = [[-9.0722635, 1.8045855], [-10.5434414, 2.0972210], [-12.5, 2.0972210], "
+      "[-12.5, 0], [-9.0722635, 0]]\n[[block]]\nfixed = true\n"
+      "polygon = [[9.0722635, 1.8045855], [10.5434414, 2.0972210], [12.5, 2.0972210], "
+      "[12.5, 0], [9.0722635, 0]]\n[fos]\nvary = 'kh'\n");
+  ASSERT_TRUE(r.factor && r.mechanism) << r.message;
+  EXPECT_NEAR(*r.factor, 0.3736, 0.01 * 0.3736);
+  EXPECT_TRUE(r.message.starts_with("seismic coefficient kh 0.37")) << r.message;
+  const Mechanism& m = *r.mechanism;
+  EXPECT_TRUE(m.text.starts_with("hinging: 4 hinges at (")) << m.text;
+  ASSERT_EQ(m.joints.size(), 4U);
+  for (const MovingJoint& joint : m.joints) EXPECT_EQ(joint.motion, JointMotion::hinges);
+  EXPECT_GT(m.hinging, 0.9);
+}
+
 }  // namespace
 }  // namespace edda::fos_mechanism_test

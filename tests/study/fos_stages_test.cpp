@@ -1,6 +1,7 @@
 // The search for a factor of safety after stages, and of models that are loose as given.
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <cmath>
 #include <numbers>
 #include <string>
@@ -135,6 +136,23 @@ TEST(Fos, SwitchesOnWhatItVaries) {
         found(text + coarse + "vary = 'load:push'\nbracket = [0.5, 2]\nstage = '" + stage + "'\n");
     ASSERT_TRUE(r.factor) << r.message;
     EXPECT_NEAR(*r.factor, weight * (c - s) / (c + s) / 1e4, 0.05);
+  }
+}
+
+/// A search that is stopped in the stages before its trials has found nothing, not even that the
+/// model is unstable.
+TEST(Fos, IsStoppedBeforeItsTrials) {
+  const std::atomic<bool> stop{true};
+  FosOptions options;
+  options.stop = &stop;
+  for (const char* law : {rough.c_str(), "friction_angle = 20\n"}) {
+    const Result<FosResult> r = find_factor(
+        testing::model_of(ramp(law, "[[stage]]\nuntil = 'equilibrium'\n" + coarse, "")), options);
+    ASSERT_TRUE(r.ok());
+    EXPECT_EQ(r.value().status, FosStatus::interrupted) << r.value().message;
+    EXPECT_TRUE(r.value().trials.empty());
+    EXPECT_FALSE(r.value().factor);
+    EXPECT_EQ(r.value().message.find("unstable"), std::string::npos) << r.value().message;
   }
 }
 

@@ -79,6 +79,28 @@ TEST(LimitEnds, OfATiltToTheLeftAndOfWeightDownwards) {
   EXPECT_NEAR(down.smallest->lower, -1.0, 1e-6);
 }
 
+/// Neither end is nearer than the other, from whichever side they are seen.
+TEST(LimitEnds, OfWhatIsSymmetricAreEqual) {
+  const std::string ground =
+      "[[block]]\nfixed = true\npolygon = [[-9, -1], [9, -1], [9, 0], "
+      "[-9, 0]]\n";
+  const std::string column = ground +
+                             "[[block]]\npolygon = [[-0.15, 0], [0.15, 0], [0.15, 1], "
+                             "[-0.15, 1]]\n[[block]]\npolygon = [[-0.15, 1], [0.15, 1], "
+                             "[0.15, 2], [-0.15, 2]]\n";
+  for (const auto& [blocks, limit] :
+       {std::pair{slab_on(0.0, 0.0), std::tan(40.0 * degree)}, {column, 0.15}}) {
+    for (const char* vary : {"kh", "-kh"}) {
+      const LimitResult r = limit_of(stone + blocks + "[fos]\nvary = \"" + vary + "\"\n");
+      ASSERT_TRUE(r.smallest);
+      EXPECT_NEAR(r.largest.lower, limit, 1e-6);
+      EXPECT_NEAR(r.smallest->lower, -limit, 1e-6);
+      EXPECT_FALSE(r.other_governs) << vary;
+      EXPECT_EQ(r.message.find("which is nearer"), std::string::npos) << r.message;
+    }
+  }
+}
+
 /// Three slabs on slopes of 35, 25 and 30 degrees, far from each other.
 TEST(LimitMechanisms, ComeInTheOrderOfTheirFactors) {
   const std::string model =

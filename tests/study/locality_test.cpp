@@ -149,5 +149,72 @@ TEST(Locality, WhatIsFarAwayChangesNeitherVerdictNorFactor) {
   }
 }
 
+const char* const until_equilibrium = "[[stage]]\nuntil = 'equilibrium'\n";
+
+/// A wedge in the roof of a tunnel, a twentieth of the size of the ground beside it: its faces are
+/// 35 degrees off the vertical, so that no stress holds it with less friction than that.
+TEST(Locality, ASmallWedgeFallsOutOfALargeRoof) {
+  const std::string text =
+      "[materials.rock]\ndensity = 2600\nyoung = 2e10\npoisson = 0.25\n[joints.j]\n"
+      "friction_angle = 25\n[domain]\noutline = [[-30, -30], [30, -30], [30, 30], [-30, 30]]\n"
+      "[[trace]]\npoints = [[-1.2, 5], [16.3051884552, 30]]\n"
+      "[[trace]]\npoints = [[1.2, 5], [-16.3051884552, 30]]\n[[opening]]\nname = 't'\n"
+      "shape = { kind = 'rectangle', at = [0, 0], width = 6, height = 5 }\n"
+      "[[boundary]]\nsides = ['left', 'right']\ntype = 'roller'\n[[boundary]]\n"
+      "sides = ['bottom']\ntype = 'fixed'\n[initial_stress]\nk0 = 0.5\nsurface_y = 30\n"
+      "[[stage]]\nname = 'in situ'\nuntil = 'equilibrium'\n[[stage]]\nname = 'dig'\n"
+      "until = 'equilibrium'\nexcavate = ['t']\n";
+  const testing::Ran run = testing::ran(text);
+  const BlockSet& blocks = run.ready.sim.scene->blocks;
+  std::size_t wedge = 0;
+  for (std::size_t i = 0; i < blocks.size(); ++i)
+    if (blocks.area[i] < blocks.area[wedge]) wedge = i;
+  EXPECT_LT(blocks.area[wedge], 2.1);
+  EXPECT_EQ(run.outcome.loose, 1U) << run.outcome.message;
+  const std::string name = fmt::format("come loose: block {} (moved", wedge);
+  EXPECT_NE(run.outcome.message.find(name), std::string::npos) << run.outcome.message;
+  ASSERT_EQ(run.outcome.failed_checks.size(), 1U);
+  EXPECT_TRUE(
+      run.outcome.failed_checks[0].starts_with("number of blocks that have come loose is 1"))
+      << run.outcome.failed_checks[0];
+  const FosResult r = found(text);
+  ASSERT_TRUE(r.factor && r.mechanism) << r.message;
+  EXPECT_LT(*r.factor, 1.005 * std::tan(25.0 * degree) / std::tan(35.0 * degree));
+  EXPECT_GT(*r.factor, 0.5);
+  ASSERT_EQ(r.mechanism->blocks.size(), 1U);
+  EXPECT_EQ(r.mechanism->blocks[0].id, static_cast<Id>(wedge));
+}
+
+/// A dry wall on level ground of this stiffness, which settles by millimetres to centimetres.
+std::string wall_on_ground(double young) {
+  return "[materials.brick]\ndensity = 2000\nyoung = 5e9\npoisson = 0.2\n[materials.soil]\n"
+         "density = 2000\nyoung = " +
+         fmt::format("{}", young) +
+         "\npoisson = 0.3\n[joints.j]\nfriction_angle = 35\n[[block]]\nmaterial = 'soil'\n"
+         "polygon = [[-20, -40], [22.5, -40], [22.5, 0], [-20, 0]]\n[[boundary]]\n"
+         "sides = ['bottom']\ntype = 'fixed'\n[[boundary]]\nalong = [[-20, -40], [-20, 0]]\n"
+         "type = 'roller'\n[[boundary]]\nalong = [[22.5, -40], [22.5, 0]]\ntype = 'roller'\n"
+         "[[brick_wall]]\ncolumns = 5\nrows = 6\nbrick = [0.5, 0.25]\n"
+         "material = 'brick'\n";
+}
+
+TEST(Locality, AWallStandsOnSoftGround) {
+  for (const double young : {0.5e9, 5e9}) {
+    const testing::Ran run = testing::ran(wall_on_ground(young) + until_equilibrium);
+    EXPECT_EQ(run.outcome.status, Status::equilibrium) << run.outcome.message;
+    EXPECT_TRUE(run.outcome.failed_checks.empty()) << run.outcome.failed_checks[0];
+    EXPECT_EQ(run.outcome.loose, 0U);
+  }
+}
+
+/// Its limit is 0.616 as rigid blocks, 0.583 where joints slide without dilating.
+TEST(Locality, AWallOnSoftGroundYieldsAtTheLimitOfRigidBlocks) {
+  const FosResult r = found(wall_on_ground(0.5e9) +
+                            "[fos]\nvary = 'kh'\nbracket = [0.575, 0.62]\ntolerance = 0.1\n");
+  ASSERT_EQ(r.status, FosStatus::found) << r.message;
+  EXPECT_EQ(*r.holds, 0.575) << r.message;
+  EXPECT_EQ(*r.fails, 0.62) << r.message;
+}
+
 }  // namespace
 }  // namespace edda::locality_test

@@ -1,10 +1,12 @@
 // What rigid limit analysis says where blocks that deform stand by a sharp tip, or a small
 // block moves first.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
 #include <string>
+#include <utility>
 
 #include "run/prepared.hpp"
 #include "run/run_model.hpp"
@@ -136,6 +138,39 @@ TEST(RigidLimit, TellsWhatMovesInOrder) {
   ASSERT_TRUE(large.factor && large.rigid) << large.message;
   EXPECT_NEAR(*large.factor, larger, 0.01 * larger);
   EXPECT_NEAR(large.rigid->most, larger, 1e-4);
+}
+
+/// A slab on 35 degrees with a bolt across its joint, which presses with its pretension until the
+/// slab slides and carries more only after that, while rigid blocks count all that it can carry:
+/// F = (W cos 35 + P) tan 36/(W sin 35). Rounded coordinates give rigid blocks a limit, of 32768.
+TEST(RigidLimit, DoesNotLetASlabSlideUntilItsBoltHolds) {
+  const double c = std::cos(35.0 * degree), s = std::sin(35.0 * degree);
+  for (const int digits : {6, 12}) {
+    const auto ring = [&](double u0, double v0, double u1, double v1) {
+      std::string text;
+      for (const auto& [u, v] : {std::pair{u0, v0}, {u1, v0}, {u1, v1}, {u0, v1}})
+        text += fmt::format("[{:.{}f}, {:.{}f}],", u * c - v * s, digits, u * s + v * c, digits);
+      return "[" + text + "]\n";
+    };
+    const FosResult r = found(
+        "[materials.rock]\ndensity = 2600\nyoung = 5e9\npoisson = 0.25\n[joints.j]\n"
+        "friction_angle = 36\n[[block]]\nfixed = true\npolygon = " +
+        ring(0, -6, 9, 0) + "[[block]]\npolygon = " + ring(3, 0, 6, 1.5) +
+        fmt::format("[[bolt]]\nfrom = [{}, {}]\nto = [{}, {}]\n", 4.5 * c - 1.49 * s,
+                    4.5 * s + 1.49 * c, 4.5 * c + 3.0 * s, 4.5 * s - 3.0 * c) +
+        "type = 'end'\ndiameter = 0.03\nspacing = 1\npretension = 60000\n");
+    const double weight = 2600.0 * 9.81 * 4.5;
+    const double slides = (weight * c + 60e3) * std::tan(36.0 * degree) / (weight * s);
+    EXPECT_NEAR(slides, 1.6998, 1e-3);
+    ASSERT_TRUE(r.factor) << r.message;
+    EXPECT_NEAR(*r.factor / slides, 1.0, 0.02) << digits;
+    // Where the slab may move by a tenth of its size the stretched bolt counts: both are told.
+    ASSERT_TRUE(r.holds_wide && r.fails_wide);
+    EXPECT_GT(*r.holds_wide, 1.5 * slides);
+    EXPECT_NE(r.message.find("where a hundredth of its size is too far for a block to move"),
+              std::string::npos)
+        << r.message;
+  }
 }
 
 }  // namespace
