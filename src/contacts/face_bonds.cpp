@@ -12,8 +12,7 @@
 namespace edda {
 namespace {
 
-/// Glues face k temporarily. It carries tension only if both ends are flush: a corner that leans on
-/// an edge is held in shear alone.
+/// Glues face k temporarily.
 void glue_for_now(FaceSet& c, std::size_t k) {
   c.saved_bond[k] = 1.0 + c.bonded[k] + 2.0 * c.carries_tension[k];
   c.glued[k] = c.bonded[k] = c.carries_tension[k] = 1.0;

@@ -100,9 +100,10 @@ Vec2 missed_by_field(const Simulation& sim, const FaceForces& faces, std::size_t
   return sum;
 }
 
-/// Normal stress of the ground on free faces along the top of the model that leaves their block
-/// out of balance, over the mean stress: the ground above them is missing. `on`: resultants().
-double missing_above(const Simulation& sim, const FaceForces& faces, const std::vector<Vec2>& on) {
+/// Normal stress of the ground on free faces along the top of the model whose lack lifts their
+/// block, over the mean stress: the ground above them is missing. lifts: resultants(), of which
+/// each face takes its part.
+double missing_above(const Simulation& sim, const FaceForces& faces, std::vector<Vec2> lifts) {
   const BlockSet& b = sim.scene->blocks;
   Boundary top;
   top.sides = {"top"};
@@ -111,8 +112,11 @@ double missing_above(const Simulation& sim, const FaceForces& faces, const std::
   for (const Piece& p : pieces_on(b, boundary_lines(sim.scene->model, b, top), WhichFaces::open,
                                   boundary_snap(sim.scene->model, b), in_joints)) {
     const EndForces ground = faces.on(p.edge, p.part);
-    lost += std::min(std::abs(ground.at_from.y + ground.at_to.y),
-                     std::abs(on[b.vertex_block[p.edge]].y));
+    const double needed = ground.at_from.y + ground.at_to.y, sign = needed > 0.0 ? 1.0 : -1.0;
+    double& lift = lifts[b.vertex_block[p.edge]].y;
+    const double missing = std::clamp(-sign * lift, 0.0, sign * needed);
+    lift += sign * missing;
+    lost += missing;
     along += (p.part.to - p.part.from) * b.edge_length[p.edge] * b.thickness;
   }
   for (std::size_t i = 0; i < b.size(); ++i) {

@@ -176,7 +176,8 @@ void Driver::stop_early() {
   const double time = sim_.motion.state.time;
   end(Status::interrupted,
       stage().ramp ? fmt::format("stopped at {:.6g} s, at {}", time, ramp_at(ramp_.increment))
-                   : fmt::format("stopped at {:.6g} s of {:.6g} s", time, latest_end()));
+                   : fmt::format("stopped at {:.6g} s of {}{:.6g} s", time,
+                                 may_end_before() ? "at most " : "", latest_end()));
 }
 
 void Driver::enter_first_stage() {

@@ -113,8 +113,7 @@ void Driver::report(bool last) {
         std::max(p.largest_velocity, norm(centroid(sim_.motion.state.vx, sim_.motion.state.vy, i)));
   }
   p.largest_overlap = sim_.accounts.penetration;
-  p.at_most = std::any_of(plans_.begin() + static_cast<std::ptrdiff_t>(stage_), plans_.end(),
-                          [](const StagePlan& plan) { return plan.stage.to_equilibrium(); });
+  p.at_most = may_end_before();
   p.stage = stage_;
   p.stages = plans_.size();
   if (!sim_.scene->model.stages.empty()) p.stage_name = stage().name;

@@ -1,6 +1,5 @@
 // Adaptive damping at present, of the whole model and of each block (theory, section 11.1).
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 #include "step/simulation.hpp"
@@ -14,12 +13,6 @@ namespace {
 double most_adaptive(const Simulation& sim) {
   const double time = sim.attached.loads.gradual.time_of_supports();
   return time > 0.0 ? 4.0 / time : std::numeric_limits<double>::infinity();
-}
-
-/// That of a block which has left its place, 1/s: one over the time in which it would fall by its
-/// own size, so that it goes where it goes in its own time and does not creep along the others.
-double most_of_loose(const Simulation& sim, std::size_t i) {
-  return std::sqrt(norm(sim.scene->model.gravity) / (2.0 * std::sqrt(sim.scene->blocks.area[i])));
 }
 
 /// At more than 1/h velocities would change sign.
@@ -38,13 +31,9 @@ double mass_damping(const Simulation& sim) {
 
 void mass_damping_of_blocks(const Simulation& sim, std::vector<double>& damping) {
   const double most = most_adaptive(sim);
-  const std::vector<std::uint8_t>& loose = sim.relaxation.loose;
   damping.resize(sim.scene->blocks.size());
-  for (std::size_t i = 0; i < damping.size(); ++i) {
-    const bool goes = !loose.empty() && loose[i] != 0;
-    damping[i] = with_adaptive(sim, sim.relaxation.estimate.frequency_of(i),
-                               goes ? std::min(most, most_of_loose(sim, i)) : most);
-  }
+  for (std::size_t i = 0; i < damping.size(); ++i)
+    damping[i] = with_adaptive(sim, sim.relaxation.estimate.frequency_of(i), most);
 }
 
 }  // namespace edda

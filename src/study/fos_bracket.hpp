@@ -40,7 +40,7 @@ struct FosBracket {
         high = 2.0 * low;
         fails = false;
         ++widened;
-        if (failed && (high >= *failed || gave_up())) {
+        if (failed && *failed > low && (high >= *failed || gave_up())) {
           high = *failed;
           fails = true;
           widened = 0;
@@ -53,7 +53,7 @@ struct FosBracket {
         low = 0.5 * high;
         holds = false;
         ++widened;
-        if (held && (low <= *held || gave_up())) {
+        if (held && *held < high && (low <= *held || gave_up())) {
           low = *held;
           holds = true;
           widened = 0;

@@ -125,7 +125,8 @@ class FosSearch {
     const RigidLimit& rigid = start_.rigid;
     if (start_.wide || !start_.as_drawn || !rigid || !limits_agree(*rigid)) return {};
     const double limit = rigid->largest.lower;
-    if (bracket_.shown(limit)) return {};
+    const bool bolts_stretch = rigid->bolts_as_now && *rigid->bolts_as_now < limit;
+    if (bolts_stretch || bracket_.shown(limit)) return {};
     const FosBracket last =
         followed(halved(), [&](double factor) { return std::optional(factor < limit); });
     std::vector<double> ends;

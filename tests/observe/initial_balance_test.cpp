@@ -93,6 +93,24 @@ TEST(InitialBalance, ABlockFromTheBottomToTheTopIsNoException) {
   EXPECT_EQ(failed_with(""), Names{"initial stress: stress that is missing at the free top"});
 }
 
+/// Between the top and an opening that is open as drawn, which gives way downwards.
+TEST(InitialBalance, NorIsTheCrownOfAnOpening) {
+  const auto failed_with = [](const char* top) {
+    return failed_in(testing::prepared(
+        "[materials.rock]\nunit_weight = '27 kN/m3'\nyoung = '50 GPa'\npoisson = 0.25\n"
+        "[joints.j]\nfriction_angle = 35\n[domain]\n"
+        "outline = [[-10, -10], [10, -10], [10, 10], [-10, 10]]\n"
+        "[[trace]]\npoints = [[-3, 3], [-3, 10]]\n[[trace]]\npoints = [[3, 3], [3, 10]]\n"
+        "[[trace]]\npoints = [[-10, -3], [10, -3]]\n[[trace]]\npoints = [[-10, 3], [-3, 3]]\n"
+        "[[trace]]\npoints = [[10, 3], [3, 3]]\n[[opening]]\nname = 'room'\n"
+        "polygon = [[-3, -3], [3, -3], [3, 3], [-3, 3]]\n[initial_stress]\nk0 = 1.5\n"
+        "surface_y = 300\n[[boundary]]\nsides = ['left', 'right', 'bottom']\ntype = 'roller'\n" +
+        std::string(top) + "[[stage]]\nuntil = 'equilibrium'\n"));
+  };
+  EXPECT_EQ(failed_with("[[boundary]]\nsides = ['top']\ntype = 'stress'\n"), Names{});
+  EXPECT_EQ(failed_with(""), Names{"initial stress: stress that is missing at the free top"});
+}
+
 /// A stage until equilibrium brings to rest what moves; without one it is said.
 TEST(InitialBalance, IsToldWhereNoStageBringsItToRest) {
   const auto told = [](const char* first) {

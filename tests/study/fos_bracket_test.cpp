@@ -99,6 +99,22 @@ TEST(FosBracket, ComesBackToWhatIsKnownFarAway) {
   EXPECT_FALSE(ends(high, 0.7).gave_up());
 }
 
+/// But not beyond what it has found since.
+TEST(FosBracket, StaysInOrderWhereALowerFactorFails) {
+  const auto known = [](double factor) {
+    return std::optional(factor < 1.2 && !(factor > 0.6 && factor < 0.9));
+  };
+  FosBracket b{1024.0, 2048.0, 0.01};
+  b.held = 1.0;
+  b = followed(b, known);
+  EXPECT_NEAR(b.low, 1.2, 0.02);
+  b.below = 0.77;
+  b.widened = 0;
+  b = followed(b, known);
+  EXPECT_LT(b.low, b.high);
+  EXPECT_NEAR(b.low, 0.6, 0.02);
+}
+
 TEST(FosBracket, GivesUp) {
   FosBracket b{1.0, 2.0, 0.5};
   EXPECT_EQ(asked(b, 0.0).back(), 1.0 / 32.0);

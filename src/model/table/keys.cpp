@@ -227,7 +227,7 @@ constexpr std::array stage_keys{
     Key{"reset_displacements", at<&Stage::reset_displacements>, flag, initial, "Whether displacements count from the start of this stage."},
     Key{"strength_factor", at<&Stage::strength_factor>, number(D::plain, above(0)), initial, "Divisor of cohesion, tangent of the friction angle and tensile strength of all joints during the stage."},
     Key{"damping", at<&Stage::damping>, table, otherwise("solver.damping; until equilibrium adaptive = 0.8 (method edda)"), "Damping during the stage."},
-    Key{"joints", at<&Stage::joints>, choice, initial, "Joints as given, or glued: contacts neither open nor slide during the stage."},
+    Key{"joints", at<&Stage::joints>, choice, initial, "Joints as given, or glued: those whose edges lie against each other neither open nor slide during the stage."},
     Key{"masses", at<&Stage::masses>, choice, otherwise("\"scaled\" until equilibrium (method edda), else \"as given\""), "Masses as given, or scaled: inertia raised so that all blocks allow one time step, weights unchanged."},
     Key{"otherwise", at<&Stage::otherwise>, choice, initial, "Until equilibrium: where blocks have come loose or fall freely while all others are in equilibrium: the run continues without them (go on) or ends there as collapsed (stop)."},
     Key{"ramp", at<&Stage::ramp>, table, otherwise("none"), "Something that is varied in increments during the stage, each held until the model is in equilibrium under it (pushover)."},
