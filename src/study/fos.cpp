@@ -19,14 +19,6 @@
 namespace edda {
 namespace {
 
-const char* what_was_varied(Varied varied) {
-  constexpr const char* words[] = {
-      "strength", "the load", "the ground motion", "the water pressure", "the tilt",
-      "kh",       "kv",       "gravity",           "the boundary"};
-  static_assert(std::size(words) == static_cast<std::size_t>(Varied::boundary) + 1);
-  return words[static_cast<int>(varied)];
-}
-
 /// How to go on where all factors tried end alike, the last of them `last`.
 std::string look_beyond(double last, bool above, const RigidLimit& rigid) {
   Vec2 next = above ? Vec2{last, 2.0 * last} : Vec2{0.5 * last, last};
@@ -73,8 +65,7 @@ void conclude(const FosBracket& bracket, const Fos& fos, bool stopped, const Rig
     } else if (strength) {
       r.message += ": it does not need the strength of these joints";
     } else {
-      r.message +=
-          fmt::format(": {} cannot move it in this direction", what_was_varied(fos.varied));
+      r.message += fmt::format(": no larger {} moves it", quantity_varied(fos));
     }
   } else {
     r.factor = 0.5 * (*r.holds + *r.fails);
