@@ -131,12 +131,12 @@ def box(records):
 
 def opening(records):
     drawing, (left, right) = draw.panels(1, 1)
-    for which, stress in sorted(records.series_of(38).items()):
-        for axis, along, title in ((left, "x", "along x"), (right, "y", "vertical")):
-            for index, (part, name) in enumerate((("rr", "radial"), ("tt", "hoop"))):
-                draw.exact_line(axis, stress["r"], 1e-6 * stress[f"{part} {along} exact"], "exact" if index == 0 else None)
-                draw.marks(axis, stress["r"], 1e-6 * stress[f"{part} {along}"], index, f"{name}, {which}")
-            axis.set_title(title)
-            draw.labels(axis, "distance from the centre (radii)", "stress (MPa)")
+    which, stress = min(records.series_of(38).items())  # the smallest blocks
+    for axis, along, title in ((left, "x", "along x"), (right, "y", "vertical")):
+        for index, (part, name) in enumerate((("rr", "radial"), ("tt", "hoop"))):
+            draw.exact_line(axis, stress["r"], 1e-6 * stress[f"{part} {along} exact"], "exact" if index == 0 else None)
+            draw.marks(axis, stress["r"], 1e-6 * stress[f"{part} {along}"], index, f"{name}, {which}")
+        axis.set_title(title)
+        draw.labels(axis, "distance from the centre (radii)", "stress (MPa)")
     draw.legend(left, loc="best")
     return draw.finish(drawing)
