@@ -117,9 +117,8 @@ void SlowingDown::begin_window(const Simulation& sim) {
   }
 }
 
-/// A motion that decays towards equilibrium decreases by the same ratio q from window to window:
-/// q/(1
-/// - q) of the last one is still to come.
+/// A motion that decays towards equilibrium decreases by the same ratio q from window to
+/// window: q/(1 - q) of the last one is still to come.
 void SlowingDown::look(const Simulation& sim) {
   if (sim.motion.state.steps < began_ + length_) return;
   const double like_before = pull_before_ > 0.0 ? pull_ / pull_before_ : 1.0;

@@ -82,15 +82,10 @@ class Driver {
   void begin_stage(std::size_t index);
   double longest_of_stage() const;
   /// The time at which the stage, or the run, ends at the latest, s.
-  double latest_end_of_stage() const {
-    return stage_start_ + std::max(stage_longest_, stage().longest());
-  }
+  double latest_end_of_stage() const;
   double latest_end() const;
   /// Whether a stage until equilibrium may end the run before that.
-  bool may_end_before() const {
-    return std::any_of(plans_.begin() + static_cast<std::ptrdiff_t>(stage_), plans_.end(),
-                       [](const StagePlan& plan) { return plan.stage.to_equilibrium(); });
-  }
+  bool may_end_before() const;
   const Stage& stage() const { return plans_[stage_].stage; }
   /// Result for the present stage; not_yet where it does not end at an equilibrium.
   Equilibrium look_for_equilibrium();

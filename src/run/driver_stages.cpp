@@ -37,10 +37,19 @@ double Driver::longest_of_stage() const {
   return stage().may_last ? std::max(longest, most_steps * sim_.control.limit) : longest;
 }
 
+double Driver::latest_end_of_stage() const {
+  return stage_start_ + std::max(stage_longest_, stage().longest());
+}
+
 double Driver::latest_end() const {
   double end = latest_end_of_stage();
   for (std::size_t q = stage_ + 1; q < plans_.size(); ++q) end += plans_[q].stage.longest();
   return end;
+}
+
+bool Driver::may_end_before() const {
+  return std::any_of(plans_.begin() + static_cast<std::ptrdiff_t>(stage_), plans_.end(),
+                     [](const StagePlan& plan) { return plan.stage.to_equilibrium(); });
 }
 
 Driver::Equilibrium Driver::look_for_equilibrium() {

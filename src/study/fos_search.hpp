@@ -47,15 +47,14 @@ class FosSearch {
         options_(options),
         result_(result),
         bracket_(begin),
-        begin_(begin),
         trials_(options.threads,
                 tasks_within(memory_here(), options.threads, start.sim.scene->blocks.size())) {
     for (const Trial& trial : start.seen) count(trial);
     if (begin.low != fos.bracket.x || begin.high != fos.bracket.y) {
-      // To where these trials are far away.
-      if (bracket_.holds && bracket_.low < begin.low) begin_.held = bracket_.low;
-      if (bracket_.fails && bracket_.high > begin.high) begin_.failed = bracket_.high;
-      bracket_ = begin_;
+      FosBracket away = begin;  // to where these trials are far away
+      if (bracket_.holds && bracket_.low < begin.low) away.held = bracket_.low;
+      if (bracket_.fails && bracket_.high > begin.high) away.failed = bracket_.high;
+      bracket_ = away;
     }
     begin_ = bracket_;
   }

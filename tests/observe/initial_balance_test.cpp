@@ -76,39 +76,38 @@ TEST(InitialBalance, SoIsAFreeTopUnderStress) {
             Names{top});
 }
 
+/// In deep ground cut and excavated so, below a top that is free or not.
+std::vector<std::string> failed_below(const std::string& top, const std::string& cut) {
+  return failed_in(testing::prepared(
+      "[materials.rock]\nunit_weight = '27 kN/m3'\nyoung = '50 GPa'\npoisson = 0.25\n"
+      "[joints.j]\nfriction_angle = 35\n[domain]\n"
+      "outline = [[-10, -10], [10, -10], [10, 10], [-10, 10]]\n" +
+      cut +
+      "[initial_stress]\nk0 = 1.5\nsurface_y = 300\n[[boundary]]\n"
+      "sides = ['left', 'right', 'bottom']\ntype = 'roller'\n" +
+      top + "[[stage]]\nuntil = 'equilibrium'\n"));
+}
+
+const Names top_is_missing{"initial stress: stress that is missing at the free top"};
+const std::string stress_on_top = "[[boundary]]\nsides = ['top']\ntype = 'stress'\n";
+
 /// A block round a room, from the bottom to the top of the model: what the bottom carries is no
 /// reason to miss the load on the top, nor to find it missing where it is there.
 TEST(InitialBalance, ABlockFromTheBottomToTheTopIsNoException) {
-  const auto failed_with = [](const char* top) {
-    const PreparedRun run = testing::prepared(
-        "[materials.rock]\nunit_weight = '27 kN/m3'\nyoung = '50 GPa'\npoisson = 0.25\n"
-        "[joints.j]\nfriction_angle = 35\n[domain]\n"
-        "outline = [[-10, -10], [10, -10], [10, 10], [-10, 10]]\n[[trace]]\n"
-        "points = [[-4, -4], [4, -4], [4, 4], [-4, 4], [-4, -4]]\n[initial_stress]\nk0 = 1.5\n"
-        "surface_y = 300\n[[boundary]]\nsides = ['left', 'right', 'bottom']\ntype = 'roller'\n" +
-        std::string(top) + "[[stage]]\nuntil = 'equilibrium'\n");
-    return failed_in(run);
-  };
-  EXPECT_EQ(failed_with("[[boundary]]\nsides = ['top']\ntype = 'stress'\n"), Names{});
-  EXPECT_EQ(failed_with(""), Names{"initial stress: stress that is missing at the free top"});
+  const std::string frame = "[[trace]]\npoints = [[-4, -4], [4, -4], [4, 4], [-4, 4], [-4, -4]]\n";
+  EXPECT_EQ(failed_below(stress_on_top, frame), Names{});
+  EXPECT_EQ(failed_below("", frame), top_is_missing);
 }
 
 /// Between the top and an opening that is open as drawn, which gives way downwards.
 TEST(InitialBalance, NorIsTheCrownOfAnOpening) {
-  const auto failed_with = [](const char* top) {
-    return failed_in(testing::prepared(
-        "[materials.rock]\nunit_weight = '27 kN/m3'\nyoung = '50 GPa'\npoisson = 0.25\n"
-        "[joints.j]\nfriction_angle = 35\n[domain]\n"
-        "outline = [[-10, -10], [10, -10], [10, 10], [-10, 10]]\n"
-        "[[trace]]\npoints = [[-3, 3], [-3, 10]]\n[[trace]]\npoints = [[3, 3], [3, 10]]\n"
-        "[[trace]]\npoints = [[-10, -3], [10, -3]]\n[[trace]]\npoints = [[-10, 3], [-3, 3]]\n"
-        "[[trace]]\npoints = [[10, 3], [3, 3]]\n[[opening]]\nname = 'room'\n"
-        "polygon = [[-3, -3], [3, -3], [3, 3], [-3, 3]]\n[initial_stress]\nk0 = 1.5\n"
-        "surface_y = 300\n[[boundary]]\nsides = ['left', 'right', 'bottom']\ntype = 'roller'\n" +
-        std::string(top) + "[[stage]]\nuntil = 'equilibrium'\n"));
-  };
-  EXPECT_EQ(failed_with("[[boundary]]\nsides = ['top']\ntype = 'stress'\n"), Names{});
-  EXPECT_EQ(failed_with(""), Names{"initial stress: stress that is missing at the free top"});
+  const std::string crown =
+      "[[trace]]\npoints = [[-3, 3], [-3, 10]]\n[[trace]]\npoints = [[3, 3], [3, 10]]\n"
+      "[[trace]]\npoints = [[-10, -3], [10, -3]]\n[[trace]]\npoints = [[-10, 3], [-3, 3]]\n"
+      "[[trace]]\npoints = [[10, 3], [3, 3]]\n[[opening]]\nname = 'room'\n"
+      "polygon = [[-3, -3], [3, -3], [3, 3], [-3, 3]]\n";
+  EXPECT_EQ(failed_below(stress_on_top, crown), Names{});
+  EXPECT_EQ(failed_below("", crown), top_is_missing);
 }
 
 /// A stage until equilibrium brings to rest what moves; without one it is said.

@@ -24,16 +24,21 @@ TEST(Shapes, TrianglesOfOneBlockHaveOneOutline) {
   EXPECT_NEAR(c.y, 0.5, 1e-12);
 }
 
-TEST(Shapes, AHoleIsARingOfItsOwn) {
-  // A square ring of eight triangles round a hole.
+/// A square of this side round a square hole between a and b along x and y, of eight triangles.
+Grid square_with_hole(double side, double a, double b) {
   Grid g;
-  g.points = {0, 0, 0, 3, 0, 0, 3, 3, 0, 0, 3, 0, 1, 1, 0, 2, 1, 0, 2, 2, 0, 1, 2, 0};
+  g.points = {0, 0, 0, side, 0, 0, side, side, 0, 0, side, 0, a, a, 0, b, a, 0, b, b, 0, a, b, 0};
   g.corners = {0, 1, 5, 0, 5, 4, 1, 2, 6, 1, 6, 5, 2, 3, 7, 2, 7, 6, 3, 0, 4, 3, 4, 7};
   for (int c = 1; c <= 8; ++c) {
     g.ends.push_back(3 * c);
     g.types.push_back(cell_type::triangle);
   }
   g.cell_fields = {{"id", 1, std::vector<double>(8, 0.0), {}, true}};
+  return g;
+}
+
+TEST(Shapes, AHoleIsARingOfItsOwn) {
+  const Grid g = square_with_hole(3, 1, 2);
   const auto shapes = block_shapes(g);
   ASSERT_EQ(shapes.size(), 1u);
   ASSERT_EQ(shapes[0].rings.size(), 2u);
@@ -71,14 +76,7 @@ TEST(Shapes, MarksLieBesideAHole) {
   // ones.
   for (const double wide : {0.5, 1.0, 1.5, 2.0, 2.5}) {
     const double a = 1.0, b = a + wide;
-    Grid g;
-    g.points = {0, 0, 0, 4, 0, 0, 4, 4, 0, 0, 4, 0, a, a, 0, b, a, 0, b, b, 0, a, b, 0};
-    g.corners = {0, 1, 5, 0, 5, 4, 1, 2, 6, 1, 6, 5, 2, 3, 7, 2, 7, 6, 3, 0, 4, 3, 4, 7};
-    for (int c = 1; c <= 8; ++c) {
-      g.ends.push_back(3 * c);
-      g.types.push_back(cell_type::triangle);
-    }
-    g.cell_fields = {{"id", 1, std::vector<double>(8, 0.0), {}, true}};
+    const Grid g = square_with_hole(4, a, b);
     const auto shapes = block_shapes(g);
     const Vec2 at = mark_place(g, shapes[0], drawn_points(g, 1.0));
     const bool in_hole = at.x > a && at.x < b && at.y > a && at.y < b;

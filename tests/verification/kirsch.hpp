@@ -226,8 +226,8 @@ inline Polar polar(const BlockStress& s, double t) {
           (s.yy - s.xx) * c * n + s.xy * (c * c - n * n)};
 }
 
-/// `bound` of each error.
-inline Errors compare(const Simulation& sim, const Mass& mass, double size, double bound) {
+inline Errors compare(const Simulation& sim, const Mass& mass, double size) {
+  constexpr double bound = 0.1;
   const std::string label = "blocks of " + brief(size) + " radii";
   const BlockSet& b = sim.scene->blocks;
   Errors e;

@@ -11,7 +11,7 @@ TEST(Kirsch, OpeningInAMassOfBlocks) {
   const double rock = kirsch::young / (2.0 * (1.0 + kirsch::poisson));
   EXPECT_LT(mass.shear_modulus, 0.8 * rock);
   EXPECT_GT(mass.shear_modulus, 0.5 * rock);
-  kirsch::compare(kirsch::opening(size), mass, size, 0.1);
+  kirsch::compare(kirsch::opening(size), mass, size);
 }
 
 }  // namespace
