@@ -267,7 +267,7 @@ void keep_wall_forces(const Model& model, const BlockSet& b, const std::vector<W
   for (const WallForce& f : forces) {
     const Id v = f.vertex;
     loads.points.push_back({b.vertex_block[v], weights_of(b.weight, v), f.force,
-                            static_cast<Index>(before) + f.owner});
+                            static_cast<Index>(before) + f.owner, v});
   }
   sort_by_block(b, loads);
 }

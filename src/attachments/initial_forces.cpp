@@ -94,4 +94,21 @@ void load_initial_stress(Loads& loads, const Model& model, const BlockSet& b,
   if (!more.empty()) add_edge_loads(b, more, loads);
 }
 
+ModeVectors initial_mode_forces(const BlockSet& b, const StressField& field) {
+  ModeVectors on;
+  on.assign(b.bending.modes(), 0.0);
+  const LoadsNow no_water;
+  const FaceForces faces(b, field, no_water);
+  for (std::size_t i = 0; i < b.size(); ++i) {
+    const BlockModes modes = b.modes(i);
+    const Id first = b.vertex_begin[i];
+    for (Id e = first; modes.count > 0 && e < b.vertex_begin[i + 1]; ++e) {
+      const EndForces all = faces.on(e, {0.0, 1.0});
+      modes.spread(on, e - first, all.at_from);
+      modes.spread(on, b.next[e] - first, all.at_to);
+    }
+  }
+  return on;
+}
+
 }  // namespace edda

@@ -35,4 +35,9 @@ std::vector<WallForce> supported_initial_stress(const Model& model, const BlockS
 void load_initial_stress(Loads& loads, const Model& model, const BlockSet& blocks,
                          const FaceForces& faces);
 
+/// Forces on the modes of blocks that bend, of the total initial stress on all of their faces, N.
+/// As the initial stress of the block does for the nodes, forces locked in the modes balance them,
+/// so that ground in its initial stress does not bend.
+ModeVectors initial_mode_forces(const BlockSet& blocks, const StressField& field);
+
 }  // namespace edda

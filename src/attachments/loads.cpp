@@ -140,14 +140,17 @@ LoadsNow loads_at(const Model& model, const Loads& loads, double time) {
   return now;
 }
 
-void add_loads(NodeVectors& f, const BlockSet& b, const LoadsNow& now, const std::vector<double>& x,
-               const std::vector<double>& y, std::size_t i) {
+void add_loads(BlockForces& on, const LoadsNow& now, const std::vector<double>& x,
+               const std::vector<double>& y) {
+  const BlockSet& b = on.blocks;
   const Loads& l = *now.loads;
-  if (l.place[i] == no_id) return;
-  const Loads::Range& r = l.range[l.place[i]];
+  if (l.place[on.block] == no_id) return;
+  const Loads::Range& r = l.range[l.place[on.block]];
   for (Id q = r.point_begin; q < r.point_end; ++q) {
     const PointLoad& p = l.points[q];
-    spread(f, p.weight, p.force, now.factor[static_cast<std::size_t>(p.load)]);
+    const double factor = now.factor[static_cast<std::size_t>(p.load)];
+    on.at_point(p.weight, p.force, factor);
+    if (p.vertex != no_id) on.bend_at(p.vertex, factor * p.force);
   }
   for (Id q = r.edge_begin; q < r.edge_end; ++q) {
     const EdgeLoad& e = l.edges[q];
@@ -158,14 +161,14 @@ void add_loads(NodeVectors& f, const BlockSet& b, const LoadsNow& now, const std
     const Vec2 whole = part * (b.edge_length[e.edge] * e.traction - e.pressure * outward_normal(u));
     const double factor = now.factor[static_cast<std::size_t>(e.load)];
     const EndForces ends = on_vertices(e.from, e.to, e.ends);
-    spread(f, b, e.edge, (1.0 - middle) * whole + factor * ends.at_from);
-    spread(f, b, end, middle * whole + factor * ends.at_to);
+    on.at_corner(e.edge, (1.0 - middle) * whole + factor * ends.at_from);
+    on.at_corner(end, middle * whole + factor * ends.at_to);
   }
   for (Id q = r.wet_begin; q < r.wet_end; ++q) {
-    const EndForces on = water_of(b, now, l.wet[q], x, y, 0.0, 1.0);
-    if (on.at_from == Vec2{} && on.at_to == Vec2{}) continue;
-    spread(f, b, l.wet[q].edge, on.at_from);
-    spread(f, b, b.next[l.wet[q].edge], on.at_to);
+    const EndForces of = water_of(b, now, l.wet[q], x, y, 0.0, 1.0);
+    if (of.at_from == Vec2{} && of.at_to == Vec2{}) continue;
+    on.at_corner(l.wet[q].edge, of.at_from);
+    on.at_corner(b.next[l.wet[q].edge], of.at_to);
   }
 }
 
@@ -188,12 +191,12 @@ EndForces water_on(const BlockSet& b, const LoadsNow& now, const std::vector<dou
 
 Vec2 load_on(const BlockSet& b, const LoadsNow& now, const Pose& pose, std::size_t i) {
   if (now.loads == nullptr) return {};
-  NodeVectors f{};
-  add_loads(f, b, now, pose.x, pose.y, i);
+  BlockForces f{b, i};
+  add_loads(f, now, pose.x, pose.y);
   constexpr double rounding = 1e-12;
   double sum = 0.0;
-  for (const Vec2 of_node : f) sum += norm(of_node);
-  const Vec2 all = resultant(f);
+  for (const Vec2 of_node : f.nodes) sum += norm(of_node);
+  const Vec2 all = resultant(f.nodes);
   return norm(all) > rounding * sum ? all : Vec2{};  // loads that balance leave their rounding
 }
 

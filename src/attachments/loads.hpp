@@ -22,6 +22,7 @@ struct PointLoad {
   NodeWeights weight;  ///< weights of the nodes at the point
   Vec2 force;          ///< N
   Index load;          ///< row of Model::loads, or that of an owner (keep_wall_forces())
+  Id vertex = no_id;   ///< the vertex that it acts on; no_id: a point inside the block
 };
 
 /// Traction or pressure on the part of an edge from s = from to s = to (0: its first vertex, 1: its
@@ -205,10 +206,10 @@ double displacement_factor(const Model& model, const Loads& loads, std::size_t r
 
 LoadsNow loads_at(const Model& model, const Loads& loads, double time);
 
-/// Adds the loads on block i, its vertices at `x`, `y`, to the forces on its nodes, N. Water:
-/// pressure gamma (level + rise - y) on each edge where that is positive.
-void add_loads(NodeVectors& on_nodes, const BlockSet& blocks, const LoadsNow& now,
-               const std::vector<double>& x, const std::vector<double>& y, std::size_t i);
+/// Adds the loads on a block, its vertices at `x`, `y`, to the forces on it, N. Water: pressure
+/// gamma (level + rise - y) on each edge where that is positive.
+void add_loads(BlockForces& on, const LoadsNow& now, const std::vector<double>& x,
+               const std::vector<double>& y);
 
 /// Forces of the water on the part from s = from to s = to of a face, at the ends of that part; its
 /// vertices at `x`, `y`.

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "base/vec2.hpp"
+#include "blocks/bending.hpp"
 #include "blocks/nodes.hpp"
 #include "model/model.hpp"
 
@@ -53,6 +54,8 @@ struct BlockSet {
       exterior_sine;  ///< [nv] of the exterior angle at the vertex; of a right angle where it is
                       ///< reentrant, 1 and 0 where the outline is straight within 0.18 degrees
 
+  Bending bending;  ///< modes of the blocks that bend
+
   // Read for building and output.
   Nodes node_x, node_y;  ///< [nodes][nb] the cover's nodes X_k at the start, m
   std::array<std::vector<double>, 6>
@@ -76,6 +79,10 @@ struct BlockSet {
 
   /// Position of vertex v at the start, m.
   Vec2 vertex(std::size_t v) const { return {vertex_x[v], vertex_y[v]}; }
+  /// The modes of block i.
+  BlockModes modes(std::size_t i) const {
+    return modes_of(bending, i, vertex_begin[i + 1] - vertex_begin[i]);
+  }
   /// Name of block i, empty where it has none.
   std::string_view name(std::size_t i) const {
     const auto found = names.find(static_cast<Id>(i));

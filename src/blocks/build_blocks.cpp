@@ -108,6 +108,27 @@ void add_triangles(BlockSet& b, const BlockPolygon& polygon) {
   b.triangles[block] = std::move(triangles);
 }
 
+/// Whether block i, built so far, has modes beside its uniform strain.
+bool bends(const Model& model, const BlockPolygon& polygon, const BlockSet& b, std::size_t i) {
+  const std::size_t n = b.vertex_begin[i + 1] - b.vertex_begin[i];
+  return may_bend(model, polygon) && n > nodes_per_block && n <= most_corners_that_bend;
+}
+
+/// The modes of block i, of which all else is there.
+void add_modes(BlockSet& b, const Moments& m, std::size_t i) {
+  const Id first = b.vertex_begin[i], last = b.vertex_begin[i + 1];
+  std::vector<Vec2> corner, gradient;
+  std::vector<double> tributary;
+  for (Id v = first; v < last; ++v) {
+    const Vec2 after = b.vertex(b.next[v]), before = b.vertex(b.previous[v]);
+    corner.push_back(b.vertex(v) - m.centroid);
+    gradient.push_back((0.5 / m.area) * Vec2{after.y - before.y, before.x - after.x});
+    tributary.push_back(0.5 * (b.edge_length[v] + b.edge_length[b.previous[v]]));
+  }
+  add_modes(b.bending, {corner, gradient, tributary, m.sxx, m.syy, m.sxy, b.lame_lambda[i],
+                        b.lame_mu[i], b.thickness});
+}
+
 /// Reserves exact sizes, so that no array ends with excess capacity.
 void reserve(BlockSet& b, const std::vector<BlockPolygon>& polygons) {
   const std::size_t nb = polygons.size();
@@ -134,6 +155,11 @@ void reserve(BlockSet& b, const std::vector<BlockPolygon>& polygons) {
 }
 
 }  // namespace
+
+bool may_bend(const Model& model, const BlockPolygon& block) {
+  return model.deformation == BlockDeformation::corners && model.solver.method == Method::edda &&
+         model.contact.model == ContactModel::faces && !block.fixed;
+}
 
 BlockSet build_blocks(const Model& model, const PolygonSet& polygons) {
   BlockSet b;
@@ -181,7 +207,13 @@ BlockSet build_blocks(const Model& model, const PolygonSet& polygons) {
     }
     if (!polygon.name.empty()) b.names[static_cast<Id>(b.area.size() - 1)] = polygon.name;
     b.vertex_begin.push_back(static_cast<Id>(b.vertex_block.size()));
+    if (const std::size_t i = b.area.size() - 1; bends(model, polygon, b, i)) {
+      add_modes(b, m, i);
+    } else {
+      add_no_modes(b.bending);
+    }
   }
+  if (!b.bending.any()) b.bending = {};
   return b;
 }
 
@@ -198,6 +230,9 @@ State initial_state(const BlockSet& b, const PolygonSet& polygons) {
     store(rigid_velocities(vectors_of(s.x, s.y, i), centre, p.velocity, p.angular_velocity), s.vx,
           s.vy, i);
   }
+  s.bend.assign(b.bending.modes(), 0.0);
+  s.bend_rate.assign(b.bending.modes(), 0.0);
+  s.from_bend = s.bend;
   s.alive.assign(nb, 1);
   s.turns.assign(nb, 0);
   return s;

@@ -8,6 +8,9 @@
 
 namespace edda {
 
+/// Whether a block of the model may bend (blocks/bending.hpp): if it has more than three corners.
+bool may_bend(const Model& model, const BlockPolygon& block);
+
 /// Computes moments, covers, masses and elastic constants of every polygon (theory, sections 1
 /// to 3). The polygons must be valid: positive area, no ring crosses itself.
 BlockSet build_blocks(const Model& model, const PolygonSet& polygons);

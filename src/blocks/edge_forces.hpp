@@ -34,4 +34,24 @@ class EdgeForces {
   Four on_[nodes_per_block] = {};  ///< of node 0: of all nodes
 };
 
+/// Sets the forces on the modes of a block from the sums on its edges. next: of its first vertex
+/// on; x, y: [modes of all blocks].
+EDDA_INLINE void gather_modes(const BlockModes& modes, const Id* next, Id first, const Four* sums,
+                              double* x, double* y) {
+  using XY __attribute__((vector_size(16))) = double;
+  XY corner[most_corners_that_bend];
+  for (std::size_t at = 0; at < modes.corners; ++at) corner[at] = XY{sums[at][0], sums[at][1]};
+  for (std::size_t at = 0; at < modes.corners; ++at)
+    corner[next[at] - first] += XY{sums[at][2], sums[at][3]};
+  for (std::size_t a = 0; a < modes.count; ++a) {
+    XY sum{};
+    for (std::size_t at = 0; at < modes.corners; ++at) {
+      const double h = modes.of(a, at);
+      sum += XY{h, h} * corner[at];
+    }
+    x[modes.first + a] = sum[0];
+    y[modes.first + a] = sum[1];
+  }
+}
+
 }  // namespace edda

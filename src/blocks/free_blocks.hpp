@@ -60,4 +60,8 @@ inline FreeForces free_forces(const ForcesToAdd& f, const FreeMarks& marks) {
 void add_to_free(const BlockSet& blocks, const State& state, const ForcesToAdd& forces,
                  std::size_t begin, std::size_t end);
 
+/// Adds the forces `on` the modes of the blocks [begin, end); those that are not free have none.
+void add_to_modes(const BlockSet& blocks, const ModeVectors& on, ModeVectors& forces,
+                  std::size_t begin, std::size_t end);
+
 }  // namespace edda

@@ -101,8 +101,42 @@ inline void spread(NodeVectors& on_nodes, const BlockSet& b, Id v, Vec2 force) {
   spread(on_nodes, weights_of(b.weight, v), force);
 }
 
+/// Forces on one block, from those at its corners and at other points of it.
+struct BlockForces {
+  const BlockSet& blocks;
+  std::size_t block;
+  NodeVectors nodes{};
+  ModeVectors* modes = nullptr;  ///< to which those on its modes are added; null: on nodes alone
+  std::size_t first = 0;         ///< the mode of all blocks with which `modes` begins
+
+  void at_corner(Id v, Vec2 force) {
+    spread(nodes, blocks, v, force);
+    bend_at(v, force);
+  }
+  /// On the modes alone.
+  void bend_at(Id v, Vec2 force) {
+    if (modes == nullptr) return;
+    BlockModes own = blocks.modes(block);
+    own.first -= first;
+    own.spread(*modes, v - blocks.vertex_begin[block], force);
+  }
+  /// On the block as its nodes move it.
+  void at_point(const NodeWeights& w, Vec2 force, double factor = 1.0) {
+    spread(nodes, w, force, factor);
+  }
+};
+
 inline Vec2 vertex_at(const BlockSet& b, const Nodes& x, const Nodes& y, std::size_t v) {
   return weighted(weights_of(b.weight, v), x, y, b.vertex_block[v]);
+}
+
+/// Where the modes and nodes take vertex v; of velocities, its velocity.
+inline Vec2 corner_at(const BlockSet& b, const Nodes& x, const Nodes& y, const ModeVectors& bend,
+                      std::size_t v) {
+  const std::size_t i = b.vertex_block[v];
+  const BlockModes modes = b.modes(i);
+  const Vec2 affine = vertex_at(b, x, y, v);
+  return modes.count == 0 ? affine : affine + modes.at(bend, v - b.vertex_begin[i]);
 }
 
 /// Symmetric 2 x 2 tensor.

@@ -63,6 +63,13 @@ double kinetic_energy(const Masses& masses, const Nodes& vx, const Nodes& vy, st
   return 0.5 * mass_product(masses, i, v, v);
 }
 
+double kinetic_energy(const Masses& masses, const BlockSet& b, const State& s, std::size_t i) {
+  double energy = kinetic_energy(masses, s.vx, s.vy, i);
+  if (const BlockModes modes = b.modes(i); modes.count > 0)
+    energy += 0.5 * mode_product(modes, s.bend_rate, s.bend_rate) / masses.mode_inverse[i];
+  return energy;
+}
+
 void fill_point_masses(Masses& m, const BlockSet& b) {
   m.point_inverse.assign(b.vertex_count(), 0.0);
   m.edge_inverse.assign(b.vertex_count(), 0.0);
@@ -72,12 +79,23 @@ void fill_point_masses(Masses& m, const BlockSet& b) {
       m.node_inverse[k][i] = m.node[k][i] > 0.0 ? 1.0 / m.node[k][i] : 0.0;
     }
   }
+  m.mode_inverse.assign(b.bending.any() ? b.size() : 0, 0.0);
+  for (std::size_t i = 0; i < m.mode_inverse.size(); ++i) {
+    const double inertia = b.fixed[i] ? 0.0 : inertia_of(m, i);
+    const auto corners = static_cast<double>(b.vertex_begin[i + 1] - b.vertex_begin[i]);
+    if (inertia > 0.0) m.mode_inverse[i] = corners / inertia;
+  }
   for (std::size_t v = 0; v < b.vertex_count(); ++v) {
     const std::size_t i = b.vertex_block[v];
     if (b.fixed[i]) continue;
     const NodeWeights w = weights_of(b.weight, v);
     m.point_inverse[v] = inverse_product(m, i, w, w);
     m.edge_inverse[v] = inverse_product(m, i, w, weights_of(b.weight, b.next[v]));
+    const BlockModes modes = b.modes(i);
+    if (modes.count == 0) continue;
+    const std::size_t at = v - b.vertex_begin[i], other = b.next[v] - b.vertex_begin[i];
+    m.point_inverse[v] += m.mode_inverse[i] * modes.product(at, at);
+    m.edge_inverse[v] += m.mode_inverse[i] * modes.product(at, other);
   }
 }
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "blocks/block_set.hpp"
+#include "blocks/state.hpp"
 
 namespace edda {
 
@@ -18,6 +19,11 @@ struct Masses {
       inverse;  ///< [6][nb] M^-1, order 11 12 13 22 23 33, 1/kg; `consistent` only
   std::vector<double> point_inverse,
       edge_inverse;  ///< [nv] w_v^T M^-1 w_v and w_v^T M^-1 w_next, 1/kg; 0 where it is fixed
+  std::vector<double> mode_inverse;  ///< [nb] 1/m of each mode, 1/kg; 0 where it is fixed; empty
+                                     ///< where no block bends
+  std::array<std::vector<double>, bendings + 1>
+      mode_damping;  ///< [5][nb] 2 zeta w along each e_b, and of the other modes, 1/s; empty where
+                     ///< none is damped
   std::vector<double> viscosity;  ///< [nb] eta: viscous stress over elastic stress rate, s; empty
                                   ///< where no block has any
   std::vector<double> raised;  ///< [nb] factor of mass scaling on the masses; empty: none is raised
@@ -53,8 +59,18 @@ inline NodeVectors accelerations(const Masses& masses, std::size_t i, const Node
 double mass_product(const Masses& masses, std::size_t i, const NodeVectors& u,
                     const NodeVectors& v);
 
-/// Kinetic energy of block i, J.
+/// sum of u . v over the modes of a block.
+inline double mode_product(const BlockModes& modes, const ModeVectors& u, const ModeVectors& v) {
+  double sum = 0.0;
+  for (std::size_t m = modes.first; m < modes.first + modes.count; ++m) sum += dot(u[m], v[m]);
+  return sum;
+}
+
+/// Kinetic energy of block i, J: of its nodes.
 double kinetic_energy(const Masses& masses, const Nodes& vx, const Nodes& vy, std::size_t i);
+/// The same of nodes and modes, with the velocities of the state.
+double kinetic_energy(const Masses& masses, const BlockSet& blocks, const State& state,
+                      std::size_t i);
 
 /// Quadratic form of the inverse mass along an edge, 1/kg: w^T M^-1 w at its start, of both ends,
 /// and at its end (Masses::point_inverse, edge_inverse).

@@ -18,7 +18,7 @@ inline Vec2 at(const std::vector<double>& x, const std::vector<double>& y, Id v)
   return {x[v], y[v]};
 }
 
-/// Computes the vertices of block i from its nodes (Eq. 19).
+/// Computes the vertices of block i from its nodes (Eq. 19), as if it did not bend.
 inline void place_vertices(const BlockSet& b, const Nodes& x, const Nodes& y, std::size_t i,
                            std::vector<double>& px, std::vector<double>& py) {
   const double x0 = x[0][i], x1 = x[1][i], x2 = x[2][i];
@@ -29,13 +29,26 @@ inline void place_vertices(const BlockSet& b, const Nodes& x, const Nodes& y, st
   }
 }
 
+/// The same with the amplitudes of its modes. Of velocities: those of the vertices.
+inline void place_vertices(const BlockSet& b, const Nodes& x, const Nodes& y,
+                           const ModeVectors& bend, std::size_t i, std::vector<double>& px,
+                           std::vector<double>& py) {
+  place_vertices(b, x, y, i, px, py);
+  const BlockModes modes = b.modes(i);
+  for (std::size_t at = 0; modes.count > 0 && at < modes.corners; ++at) {
+    const Vec2 bent = modes.at(bend, at);
+    px[b.vertex_begin[i] + at] += bent.x;
+    py[b.vertex_begin[i] + at] += bent.y;
+  }
+}
+
 /// Computes the next vertices of the blocks [begin, end) from their nodes, into pose.x1, y1.
 /// Returns the largest squared distance from pose.x, y, m2; 1e300 if one is not finite.
-double place_next(const BlockSet& blocks, const Nodes& x, const Nodes& y, Pose& pose,
-                  std::size_t begin, std::size_t end);
+double place_next(const BlockSet& blocks, const State& state, Pose& pose, std::size_t begin,
+                  std::size_t end);
 
 /// Sets pose.x1, y1 of the free blocks to a step of h (s) earlier, at these velocities of the nodes
-/// (m/s): x_{n-1} = x_n - h v.
+/// (m/s): x_{n-1} = x_n - h v; those of the modes are the state's.
 void place_a_step_back(const BlockSet& blocks, const State& state, const Nodes& vx, const Nodes& vy,
                        double h, Pose& pose);
 

@@ -29,7 +29,8 @@ EDDA_VECTOR void place_edges(const Corners& c, const Id* blocks, std::size_t cou
 
 EDDA_VECTOR void gather_blocks(const Corners& c, const Id* blocks, std::size_t count,
                                const std::uint8_t* wanted, const Id* record_begin,
-                               const double* records, NodeValues fx, NodeValues fy) {
+                               const double* records, NodeValues fx, NodeValues fy,
+                               ModeForces modes) {
   const ConstNodeValues weight = c.weight;  // copies that no store can change
   const Id* const next = c.next;
   Id begin = *record_begin;  // of the records of an edge, which follow those of the edge before
@@ -41,15 +42,22 @@ EDDA_VECTOR void gather_blocks(const Corners& c, const Id* blocks, std::size_t c
       continue;
     }
     const double* record = records + 4 * std::size_t{begin};
+    const bool bends = modes.bending != nullptr && modes.bending->modes_of(i) > 0;
+    Four sums[most_corners_that_bend];
     EdgeForces on;
     for (Id e = first; e < last; ++e) {
       const Id end = *++record_begin;
+      if (bends) sums[e - first] = Four{};
       if (begin == end) continue;
       Four sum{};
       for (; begin != end; ++begin, record += 4) sum += four_at(record);
       on.add(weight, e, next[e], sum);
+      if (bends) sums[e - first] = sum;
     }
     store(on.on_nodes(), fx, fy, i);
+    if (bends)
+      gather_modes(modes_of(*modes.bending, i, last - first), next + first, first, sums, modes.x,
+                   modes.y);
   }
 }
 

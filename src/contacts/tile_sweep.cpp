@@ -263,7 +263,8 @@ std::size_t work_of(const FaceTiles& t, const Tile& of) {
 }  // namespace
 
 SweepResult sweep_tile(FaceTiles& t, const SweepScene& scene, std::size_t tile, bool keep,
-                       SweepScratch& scratch, Nodes& force_x, Nodes& force_y) {
+                       SweepScratch& scratch, Nodes& force_x, Nodes& force_y,
+                       ModeVectors& on_modes) {
   const Tile& of = t.tiles[tile];
   place_tile(t, scene, tile, scratch);
   const std::size_t numbers = record_numbers(t, of);
@@ -278,7 +279,7 @@ SweepResult sweep_tile(FaceTiles& t, const SweepScene& scene, std::size_t tile, 
   const LaneBits found = sweep_awake(t, of, tables, edges);
   gather_blocks(corners_of(scene.blocks), &t.blocks[of.first_block], of.last_block - of.first_block,
                 nullptr, &t.record_begin[of.first_edge], on.data(), values_of(force_x),
-                values_of(force_y));
+                values_of(force_y), mode_forces(scene.blocks, on_modes));
   SweepResult result = result_of(found);
   result.work = work_of(t, of);
   const bool keeps = keep || result.decides || result.switching || result.fails;
@@ -309,11 +310,12 @@ SweepResult sweep_chunks(FaceTiles& t, const SweepScene& scene, std::size_t tile
 }
 
 void gather_tile(const FaceTiles& t, const BlockSet& b, std::size_t tile,
-                 const std::vector<std::uint8_t>& wanted, Nodes& force_x, Nodes& force_y) {
+                 const std::vector<std::uint8_t>& wanted, Nodes& force_x, Nodes& force_y,
+                 ModeVectors& on_modes) {
   const Tile& of = t.tiles[tile];
   gather_blocks(corners_of(b), &t.blocks[of.first_block], of.last_block - of.first_block,
                 wanted.data(), &t.record_begin[of.first_edge], t.forces[tile].data(),
-                values_of(force_x), values_of(force_y));
+                values_of(force_x), values_of(force_y), mode_forces(b, on_modes));
 }
 
 }  // namespace edda

@@ -42,19 +42,22 @@ struct SweepResult {
 };
 
 /// Evaluates the faces of a tile at step n: memory of n - 1 to memory of n (FaceTiles::now must be
-/// that of n already), bits, work. Stores the forces of the faces on the nodes of the own blocks,
-/// N. Keeps the records of the forces where it finds anything, or where `keep` asks for it.
+/// that of n already), bits, work. Stores the forces of the faces on the nodes and modes of the own
+/// blocks, N. Keeps the records of the forces where it finds anything, or where `keep` asks for it.
 SweepResult sweep_tile(FaceTiles& tiles, const SweepScene& scene, std::size_t tile, bool keep,
-                       SweepScratch& scratch, Nodes& force_x, Nodes& force_y);
+                       SweepScratch& scratch, Nodes& force_x, Nodes& force_y,
+                       ModeVectors& on_modes);
 
 /// Evaluates these chunks of a tile whose records are kept once more, after their faces have been
 /// changed or blocks have been moved. The forces on the blocks are left to gather_tile().
 SweepResult sweep_chunks(FaceTiles& tiles, const SweepScene& scene, std::size_t tile,
                          std::span<const Id> chunks);
 
-/// Stores the forces of the faces on the nodes of those own blocks of a tile that are `wanted`
+/// Stores the forces of the faces on the nodes and modes of those own blocks of a tile that are
+/// `wanted`
 /// ([nb]), N. The records of the tile must be kept.
 void gather_tile(const FaceTiles& tiles, const BlockSet& blocks, std::size_t tile,
-                 const std::vector<std::uint8_t>& wanted, Nodes& force_x, Nodes& force_y);
+                 const std::vector<std::uint8_t>& wanted, Nodes& force_x, Nodes& force_y,
+                 ModeVectors& on_modes);
 
 }  // namespace edda

@@ -93,7 +93,7 @@ std::vector<SpringOnBlock> faces_all_round(const StiffnessInputs& w, std::size_t
       const double factor = 2.0 * std::sqrt(bare * count / w.masses.point_inverse[v]);
       const double sharp = w.alone ? of_sharp_corner(b.corner[v]) : 1.0;
       const double normal_here = sharp * of_normal, shear_here = sharp * of_shear;
-      parts.push_back({normal.front().face, along(weights, outward_normal(t)), along(weights, t),
+      parts.push_back({normal.front().face, v, weights, outward_normal(t), t,
                        (1.0 + rebound) * normal_here, shear_here,
                        factor * zeta * std::sqrt(normal_here),
                        factor * shear_zeta * std::sqrt(shear_here)});
@@ -111,8 +111,8 @@ std::vector<SpringOnBlock> points_near(const StiffnessInputs& w, std::size_t i) 
   const auto before = [](const PointSpring& s, std::size_t block) { return s.block < block; };
   for (auto s = std::lower_bound(springs.begin(), springs.end(), i, before);
        s != springs.end() && s->block == i; ++s) {
-    parts.push_back({no_id, along(s->weight, {1.0, 0.0}), along(s->weight, {0.0, 1.0}),
-                     s->factor * p, s->factor * p, 0.0, 0.0});
+    parts.push_back(
+        {no_id, no_id, s->weight, {1.0, 0.0}, {0.0, 1.0}, s->factor * p, s->factor * p, 0.0, 0.0});
   }
   return parts;
 }
@@ -132,19 +132,147 @@ class Hash {
 
 }  // namespace
 
-BlockEquations equations_of(const StiffnessInputs& w, std::size_t i) {
-  BlockEquations k;
-  k.mass = mass_matrix(w.masses, i);
-  k.viscous = viscous_matrix(w.blocks, w.masses, i);
+template <class Vector>
+Vector at_corner_of(const BlockSet& b, std::size_t i, const SpringOnBlock& spring, Vec2 direction) {
+  const NodalVector nodes = along(spring.weight, direction);
+  if constexpr (Vector::RowsAtCompileTime != Eigen::Dynamic) {
+    return nodes;
+  } else {
+    const BlockModes modes = b.modes(i);
+    Vector all(nodes.size() + 2 * static_cast<Eigen::Index>(modes.count));
+    all.head(nodes.size()) = nodes;
+    for (std::size_t a = 0; a < modes.count; ++a) {
+      const double h = modes.of(a, spring.corner - b.vertex_begin[i]);
+      all[row_of_node(nodes_per_block + a)] = h * direction.x;
+      all[row_of_node(nodes_per_block + a) + 1] = h * direction.y;
+    }
+    return all;
+  }
+}
+
+namespace {
+
+/// Of boundary springs on the modes, too.
+EquationMatrix boundary_of_modes(const StiffnessInputs& w, std::size_t i, const Rotation& r,
+                                 Eigen::Index size) {
+  EquationMatrix m = EquationMatrix::Zero(size, size);
+  Eigen::Matrix2d turn;
+  turn << r.c, r.s, -r.s, r.c;
+  const BoundarySprings& s = w.springs;
+  for (Id q = s.block_begin[i]; q < s.block_begin[i + 1]; ++q) {
+    Eigen::Matrix2d k;
+    k << s.kxx[q], s.kxy[q], s.kxy[q], s.kyy[q];
+    k = turn * k * turn.transpose();
+    SpringOnBlock at{};
+    at.corner = s.vertex[q];
+    at.weight = weights_of(w.blocks.weight, s.vertex[q]);
+    Eigen::MatrixXd both(size, 2);
+    both.col(0) = at_corner_of<Eigen::VectorXd>(w.blocks, i, at, {1.0, 0.0});
+    both.col(1) = at_corner_of<Eigen::VectorXd>(w.blocks, i, at, {0.0, 1.0});
+    m += both * k * both.transpose();
+  }
+  return m;
+}
+
+/// K of the modes of a block with these stiffnesses of its bendings and, along each mode, beside
+/// them.
+EquationMatrix of_modes(const BlockSet& b, std::size_t i, const std::array<double, bendings>& along,
+                        const Eigen::VectorXd& beside) {
+  const Bending& bending = b.bending;
+  const std::size_t first = bending.begin[i];
+  EquationMatrix axes(beside.size(), static_cast<Eigen::Index>(bendings));
+  Eigen::Matrix<double, static_cast<int>(bendings), 1> kappa;
+  for (std::size_t k = 0; k < bendings; ++k) {
+    const auto column = static_cast<Eigen::Index>(k);
+    kappa[column] = along[k];
+    for (Eigen::Index c = 0; c < beside.size(); ++c) {
+      const Vec2 e = bending.axis[k][first + static_cast<std::size_t>(c / 2)];
+      axes(c, column) = c % 2 == 0 ? e.x : e.y;
+    }
+  }
+  const EquationMatrix rest =
+      EquationMatrix::Identity(beside.size(), beside.size()) - axes * axes.transpose();
+  return rest * beside.asDiagonal() * rest + axes * kappa.asDiagonal() * axes.transpose();
+}
+
+/// Values of block i, times a factor.
+template <class Values>
+std::array<double, bendings> at_block(const Values& values, std::size_t i, double factor) {
+  std::array<double, bendings> at;
+  for (std::size_t k = 0; k < bendings; ++k) at[k] = factor * values[k][i];
+  return at;
+}
+
+/// Adds what the modes of a block that bends have of their own to its equations.
+void add_modes(BlockEquations<EquationMatrix>& k, const StiffnessInputs& w, std::size_t i) {
+  const Bending& bending = w.blocks.bending;
+  const std::size_t first = bending.begin[i], count = bending.modes_of(i);
+  const auto from = static_cast<Eigen::Index>(degrees_of_freedom),
+             size = static_cast<Eigen::Index>(2 * count);
+  const double mass = 1.0 / w.masses.mode_inverse[i];
+  Eigen::VectorXd beside(size);
+  for (Eigen::Index c = 0; c < size; ++c)
+    beside[c] = bending.stiffness[first + static_cast<std::size_t>(c / 2)];
+  k.mass.bottomRightCorner(size, size).diagonal().setConstant(mass);
+  k.elastic.block(from, from, size, size) =
+      of_modes(w.blocks, i, at_block(bending.kappa, i, 1.0), beside);
+  const auto& damping = w.masses.mode_damping;
+  if (damping[0].empty()) return;
+  beside.setConstant(mass * damping[bendings][i]);
+  k.viscous.block(from, from, size, size) =
+      of_modes(w.blocks, i, at_block(damping, i, mass), beside);
+}
+
+/// A matrix of the nodes as that of the whole block.
+template <class Matrix>
+Matrix of_nodes(const NodalMatrix& m, Eigen::Index size) {
+  if constexpr (Matrix::RowsAtCompileTime != Eigen::Dynamic) {
+    return m;
+  } else {
+    Matrix all = Matrix::Zero(size, size);
+    all.topLeftCorner(m.rows(), m.cols()) = m;
+    return all;
+  }
+}
+
+}  // namespace
+
+template <class Matrix>
+BlockEquations<Matrix> equations_of(const StiffnessInputs& w, std::size_t i) {
+  using Vector = typename BlockEquations<Matrix>::Vector;
+  constexpr bool bends = Matrix::RowsAtCompileTime == Eigen::Dynamic;
+  const auto size =
+      static_cast<Eigen::Index>(degrees_of_freedom + 2 * w.blocks.bending.modes_of(i));
+  BlockEquations<Matrix> k;
+  k.mass = of_nodes<Matrix>(mass_matrix(w.masses, i), size);
+  k.viscous = of_nodes<Matrix>(viscous_matrix(w.blocks, w.masses, i), size);
   k.parts = w.points == nullptr ? faces_all_round(w, i) : points_near(w, i);
-  k.elastic = elastic_matrix(w.blocks, i);
-  k.boundary = boundary_matrix(w.blocks, w.springs,
-                               rotation(deformation(w.blocks, w.state.x, w.state.y, i)), i);
-  k.bolts =
-      w.bolts == nullptr ? NodalMatrix::Zero().eval() : bolt_matrix(*w.bolts, w.blocks, w.state, i);
-  for (const SpringOnBlock& p : k.parts) k.add(p);
+  k.elastic = of_nodes<Matrix>(elastic_matrix(w.blocks, i), size);
+  const Rotation r = rotation(deformation(w.blocks, w.state.x, w.state.y, i));
+  if constexpr (bends) {
+    k.boundary = boundary_of_modes(w, i, r, size);
+    add_modes(k, w, i);
+  } else {
+    k.boundary = boundary_matrix(w.blocks, w.springs, r, i);
+  }
+  k.bolts = of_nodes<Matrix>(
+      w.bolts == nullptr ? NodalMatrix::Zero().eval() : bolt_matrix(*w.bolts, w.blocks, w.state, i),
+      size);
+  k.contacts = k.dashpots = of_nodes<Matrix>(NodalMatrix::Zero(), size);
+  for (const SpringOnBlock& p : k.parts) {
+    const Vector normal = at_corner_of<Vector>(w.blocks, i, p, p.normal),
+                 tangent = at_corner_of<Vector>(w.blocks, i, p, p.tangent);
+    k.contacts += p.kn * normal * normal.transpose() + p.ks * tangent * tangent.transpose();
+    if (p.dashpot > 0.0) k.dashpots += p.dashpot * normal * normal.transpose();
+    if (p.shear_dashpot > 0.0) k.dashpots += p.shear_dashpot * tangent * tangent.transpose();
+  }
   return k;
 }
+
+template BlockEquations<NodalMatrix> equations_of(const StiffnessInputs&, std::size_t);
+template BlockEquations<EquationMatrix> equations_of(const StiffnessInputs&, std::size_t);
+template NodalVector at_corner_of(const BlockSet&, std::size_t, const SpringOnBlock&, Vec2);
+template Eigen::VectorXd at_corner_of(const BlockSet&, std::size_t, const SpringOnBlock&, Vec2);
 
 std::uint64_t equations_hash(const StiffnessInputs& w, std::size_t i) {
   const BlockSet& b = w.blocks;
@@ -158,6 +286,7 @@ std::uint64_t equations_hash(const StiffnessInputs& w, std::size_t i) {
        {w.damping.local, w.damping.mass_damping(), b.lame_lambda[i], b.lame_mu[i]})
     hash.add(number);
   hash.add(w.masses.viscosity.empty() ? 0.0 : w.masses.viscosity[i]);
+  hash.add(w.masses.mode_damping[0].empty() ? 0.0 : w.masses.mode_damping[0][i]);
   hash.add(w.masses.kind == MassKind::consistent ? w.masses.inverse[0][i] : 0.0);
   // The factor of a spring, 1 or 2, enters as the sign of its length.
   const auto add = [&](const Law& law, double kn, double ks, double length, bool once) {

@@ -36,32 +36,47 @@ struct StiffnessInputs {
 /// Contribution of a contact at one corner to the equations of a block. All with the factor 2, or 1
 /// against a fixed block (step_bound.hpp).
 struct SpringOnBlock {
-  Id face;  ///< in the list of faces, or no_id
-  NodalVector normal,
-      tangent;  ///< unit forces at the corner, spread on the nodes (q_c in theory 7.2)
+  Id face;                                ///< in the list of faces, or no_id
+  Id corner;                              ///< vertex
+  NodeWeights weight;                     ///< of the nodes at the corner
+  Vec2 normal, tangent;                   ///< directions
   double kn, ks, dashpot, shear_dashpot;  ///< normal and shear spring, N/m; dashpots across and
                                           ///< along the joint, N s/m
 };
 
-/// Equations M a + (C + D) v + K x = f of one block in its own frame, for the
-/// components of its nodes; they determine the step that it allows.
+/// Equations M a + (C + D) v + K x = f of one block in its own frame, for the components of its
+/// nodes, and of its modes if it bends (Matrix: EquationMatrix); they determine the step that it
+/// allows.
+template <class Matrix>
 struct BlockEquations {
-  NodalMatrix mass;     ///< M
-  NodalMatrix viscous;  ///< D of the strain damping, taken with the new velocity
-  NodalMatrix dashpots = NodalMatrix::Zero();  ///< C of contacts, taken with the old velocity
-  NodalMatrix elastic, boundary, bolts;        ///< parts of K
-  NodalMatrix contacts = NodalMatrix::Zero();  ///< the part of K due to contacts
+  using Vector = Eigen::Matrix<double, Matrix::RowsAtCompileTime, 1>;
+  Matrix mass;                       ///< M
+  Matrix viscous;                    ///< D of the strain damping, taken with the new velocity
+  Matrix dashpots;                   ///< C of contacts, taken with the old velocity
+  Matrix elastic, boundary, bolts;   ///< parts of K
+  Matrix contacts;                   ///< the part of K due to contacts
   std::vector<SpringOnBlock> parts;  ///< contacts of which `contacts` and `dashpots` are the sum
 
-  NodalMatrix stiffness() const { return elastic + boundary + bolts + contacts; }
-  void add(const SpringOnBlock& p) {
-    contacts += p.kn * p.normal * p.normal.transpose() + p.ks * p.tangent * p.tangent.transpose();
-    if (p.dashpot > 0.0) dashpots += p.dashpot * p.normal * p.normal.transpose();
-    if (p.shear_dashpot > 0.0) dashpots += p.shear_dashpot * p.tangent * p.tangent.transpose();
-  }
+  Matrix stiffness() const { return elastic + boundary + bolts + contacts; }
 };
 
-BlockEquations equations_of(const StiffnessInputs& inputs, std::size_t i);
+/// The matrices of a block that bends.
+using EquationMatrix = Eigen::MatrixXd;
+
+/// Unit forces along `direction` at the corner of a spring, on the nodes and modes of block i (q_c
+/// in theory 7.2). Vector: of BlockEquations.
+template <class Vector>
+Vector at_corner_of(const BlockSet& blocks, std::size_t i, const SpringOnBlock& spring,
+                    Vec2 direction);
+
+/// Matrix: NodalMatrix, of blocks that do not bend, or EquationMatrix.
+template <class Matrix>
+BlockEquations<Matrix> equations_of(const StiffnessInputs& inputs, std::size_t i);
+extern template BlockEquations<NodalMatrix> equations_of(const StiffnessInputs&, std::size_t);
+extern template BlockEquations<EquationMatrix> equations_of(const StiffnessInputs&, std::size_t);
+extern template NodalVector at_corner_of(const BlockSet&, std::size_t, const SpringOnBlock&, Vec2);
+extern template Eigen::VectorXd at_corner_of(const BlockSet&, std::size_t, const SpringOnBlock&,
+                                             Vec2);
 
 /// A hash of everything in the equations of block i that may change with the list of faces, stages
 /// or masses; 0: the equations change with the state, too.

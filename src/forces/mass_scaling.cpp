@@ -13,6 +13,9 @@ namespace {
 void multiply_inertia(Masses& m, std::size_t i, double factor) {
   for (std::vector<double>& mass : m.node) mass[i] *= factor;
   if (!m.viscosity.empty()) m.viscosity[i] *= std::sqrt(factor);  // same fraction of critical
+  for (std::vector<double>& rate : m.mode_damping) {
+    if (!rate.empty()) rate[i] /= std::sqrt(factor);
+  }
   if (m.kind != MassKind::consistent) return;
   for (std::vector<double>& entry : m.inverse) entry[i] /= factor;
 }

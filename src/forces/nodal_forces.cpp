@@ -6,6 +6,7 @@
 #include "base/parallel.hpp"
 #include "blocks/edge_forces.hpp"
 #include "blocks/free_blocks.hpp"
+#include "forces/bending_forces.hpp"
 #include "forces/elastic.hpp"
 
 namespace edda {
@@ -45,17 +46,37 @@ EDDA_VECTOR void sum_faces_of_blocks(FaceListView c, const Id* vertex_begin, Nod
   }
 }
 
-/// Calls body(i, forces on the nodes of i) for those of these blocks, ascending, that lie in
-/// [begin, end) and are free.
+/// Sets the forces of faces on the modes of block i.
+void modes_of_faces(const FaceListView& c, const BlockSet& b, std::size_t i, ModeVectors& on) {
+  const BlockModes modes = b.modes(i);
+  if (modes.count == 0) return;
+  const Id first = b.vertex_begin[i];
+  Four sums[most_corners_that_bend] = {};
+  for (Id e = first; e < b.vertex_begin[i + 1]; ++e) {
+    for (std::size_t q = c.begin_of_edge[e]; q < c.begin_of_edge[e + 1]; ++q) {
+      const double* const of_face = c.force + c.on_edge[q];
+      sums[e - first] += Four{of_face[0], of_face[1], of_face[2], of_face[3]};
+    }
+  }
+  gather_modes(modes, c.next + first, first, sums, on.x.data(), on.y.data());
+}
+
+/// The forces on block i, to be added to.
+BlockForces forces_on(NodalForces& forces, const BlockSet& b, std::size_t i) {
+  return {b, i, vectors_of(forces.x, forces.y, i),
+          forces.modes.size() > 0 ? &forces.modes : nullptr};
+}
+
+/// Calls body(forces) for those of these blocks, ascending, that lie in [begin, end) and are free.
 template <class Body>
 void change_forces(NodalForces& forces, const BlockSet& b, const State& state,
                    const std::vector<Id>& blocks, std::size_t begin, std::size_t end, Body body) {
   auto next = std::lower_bound(blocks.begin(), blocks.end(), static_cast<Id>(begin));
   for (; next != blocks.end() && *next < end; ++next) {
     if (!is_free(b, state, *next)) continue;
-    NodeVectors f = vectors_of(forces.x, forces.y, *next);
-    body(f, *next);
-    store(f, forces.x, forces.y, *next);
+    BlockForces f = forces_on(forces, b, *next);
+    body(f);
+    store(f.nodes, forces.x, forces.y, *next);
   }
 }
 
@@ -66,9 +87,9 @@ void add_springs(NodalForces& forces, const BlockSet& b, const BoundarySprings& 
     const Id i = b.vertex_block[s.vertex[q]];
     next = s.block_begin[i + 1];
     if (!is_free(b, state, i)) continue;
-    NodeVectors f = vectors_of(forces.x, forces.y, i);
-    for (; q < next; ++q) spread(f, b, s.vertex[q], spring_force(s, q, pose.x, pose.y));
-    store(f, forces.x, forces.y, i);
+    BlockForces f = forces_on(forces, b, i);
+    for (; q < next; ++q) f.at_corner(s.vertex[q], spring_force(s, q, pose.x, pose.y));
+    store(f.nodes, forces.x, forces.y, i);
   }
 }
 
@@ -77,7 +98,7 @@ void add_loads(NodalForces& forces, const BlockSet& b, const LoadsNow& loads, co
                const Pose& pose, std::size_t begin, std::size_t end) {
   if (loads.loads != nullptr) {
     change_forces(forces, b, state, loads.loads->blocks, begin, end,
-                  [&](NodeVectors& f, Id i) { add_loads(f, b, loads, pose.x, pose.y, i); });
+                  [&](BlockForces& f) { add_loads(f, loads, pose.x, pose.y); });
   }
   if (loads.bolts == nullptr && loads.on_nodes == nullptr) return;
   for (std::size_t i = begin; i < end; ++i) {
@@ -139,19 +160,27 @@ EDDA_VECTOR void add_initial_forces(InitialView b, ConstNodeValues x, ConstNodeV
 
 }  // namespace
 
+NodalForces no_forces(const BlockSet& b) {
+  NodalForces f{zero_nodes(b.size()), zero_nodes(b.size())};
+  f.modes.assign(b.bending.modes(), 0.0);
+  return f;
+}
+
 void sum_faces(NodalForces& on, const BlockSet& b, const FaceSet& contacts) {
   for (Nodes* const nodes : {&on.x, &on.y}) {
     for (auto& values : *nodes) values.resize(b.size());
   }
+  on.modes.assign(b.bending.modes(), 0.0);
   parallel_blocks(b.size(), 40, [&](std::size_t, std::size_t begin, std::size_t end) {
-    sum_faces_of_blocks(faces_of(b, contacts), b.vertex_begin.data(), values_of(on.x),
-                        values_of(on.y), begin, end);
+    const FaceListView faces = faces_of(b, contacts);
+    sum_faces_of_blocks(faces, b.vertex_begin.data(), values_of(on.x), values_of(on.y), begin, end);
+    for (std::size_t i = begin; i < end; ++i) modes_of_faces(faces, b, i, on.modes);
   });
 }
 
 void gather_own_forces(NodalForces& forces, const BlockSet& b, const State& state, const Pose& pose,
                        const BoundarySprings& springs, Vec2 gravity, const LoadsNow& loads,
-                       std::size_t begin, std::size_t end) {
+                       const ModeVectors& locked, std::size_t begin, std::size_t end) {
   const BodyView body{values_of(b.grad_x),  values_of(b.grad_y), b.volume.data(),
                       b.lame_lambda.data(), b.lame_mu.data(),    b.mass.data()};
   body_forces(body, values_of(state.x), values_of(state.y), gravity - loads.gravity_reduction(),
@@ -162,22 +191,32 @@ void gather_own_forces(NodalForces& forces, const BlockSet& b, const State& stat
     add_initial_forces(initial, values_of(state.x), values_of(state.y), values_of(forces.x),
                        values_of(forces.y), begin, end);
   }
+  if (b.bending.any()) {
+    const auto first = static_cast<std::ptrdiff_t>(b.bending.begin[begin]),
+               last = static_cast<std::ptrdiff_t>(b.bending.begin[end]);
+    for (std::vector<double>* of : {&forces.modes.x, &forces.modes.y})
+      std::fill(of->begin() + first, of->begin() + last, 0.0);
+  }
   add_springs(forces, b, springs, state, pose, begin, end);
   add_loads(forces, b, loads, state, pose, begin, end);
+  if (b.bending.any()) add_bending(forces, b, state, locked, begin, end);
 }
 
 void gather_forces(NodalForces& forces, const BlockSet& b, const State& state, const Pose& pose,
                    const NodalForces& on_faces, const BoundarySprings& springs, Vec2 gravity,
-                   const LoadsNow& loads, std::size_t begin, std::size_t end) {
-  gather_own_forces(forces, b, state, pose, springs, gravity, loads, begin, end);
+                   const LoadsNow& loads, const ModeVectors& locked, std::size_t begin,
+                   std::size_t end) {
+  gather_own_forces(forces, b, state, pose, springs, gravity, loads, locked, begin, end);
   add_to_free(b, state, {on_faces.x, on_faces.y, forces.x, forces.y}, begin, end);
+  add_to_modes(b, on_faces.modes, forces.modes, begin, end);
 }
 
 void gather_forces(NodalForces& forces, const BlockSet& b, const State& state, const Pose& pose,
                    const NodalForces& on_faces, const BoundarySprings& springs, Vec2 gravity,
-                   const LoadsNow& loads) {
+                   const LoadsNow& loads, const ModeVectors& locked) {
+  if (forces.modes.size() != b.bending.modes()) forces.modes.assign(b.bending.modes(), 0.0);
   parallel_blocks(b.size(), 40, [&](std::size_t, std::size_t begin, std::size_t end) {
-    gather_forces(forces, b, state, pose, on_faces, springs, gravity, loads, begin, end);
+    gather_forces(forces, b, state, pose, on_faces, springs, gravity, loads, locked, begin, end);
   });
 }
 

@@ -9,18 +9,18 @@
 namespace edda {
 namespace {
 
-constexpr Eigen::Index fastest = degrees_of_freedom - 1;  // of the modes of a block
-
 double not_beyond_mass_damping(double step, const Damping& damping) {
   const double mass_damping = damping.mass_damping();
   return mass_damping > 0.0 ? std::min(step, 1.0 / mass_damping) : step;
 }
 
 /// L^-1 K, M = L L^T; column by column, so that Eigen allocates no memory.
-NodalMatrix divided_by_root(const Eigen::LLT<NodalMatrix>& mass, const NodalMatrix& k) {
-  NodalMatrix a;
+template <class Matrix>
+Matrix divided_by_root(const Eigen::LLT<Matrix>& mass, const Matrix& k) {
+  using Vector = typename BlockEquations<Matrix>::Vector;
+  Matrix a(k.rows(), k.cols());
   for (Eigen::Index column = 0; column < a.cols(); ++column) {
-    a.col(column) = mass.matrixL().solve(NodalVector(k.col(column)));
+    a.col(column) = mass.matrixL().solve(Vector(k.col(column)));
   }
   return a;
 }
@@ -28,15 +28,16 @@ NodalMatrix divided_by_root(const Eigen::LLT<NodalMatrix>& mass, const NodalMatr
 /// Upper bound of the largest eigenvalue of M^-1 K, at most n^(1/64) times it for n degrees of
 /// freedom: (tr A^64)^(1/64) of
 /// A = L^-1 K L^-T, M = L L^T.
-double eigenvalue_bound(const NodalMatrix& k, const Eigen::LLT<NodalMatrix>& mass) {
-  NodalMatrix a = divided_by_root(mass, k);
-  a = divided_by_root(mass, a.transpose().eval());
+template <class Matrix>
+double eigenvalue_bound(const Matrix& k, const Eigen::LLT<Matrix>& mass) {
+  Matrix a = divided_by_root(mass, k);
+  a = divided_by_root(mass, Matrix(a.transpose()));
   const double size = a.trace();
   if (!std::isfinite(size)) return std::numeric_limits<double>::infinity();
   if (!(size > 0.0)) return 0.0;
   a /= size;
   constexpr int squares = 5;
-  for (int square = 0; square < squares; ++square) a = NodalMatrix(a.lazyProduct(a));
+  for (int square = 0; square < squares; ++square) a = Matrix(a.lazyProduct(a));
   double root = a.squaredNorm();
   for (int square = 0; square <= squares; ++square) root = std::sqrt(root);
   constexpr double rounding = 1e-9;
@@ -51,12 +52,13 @@ double root_of_step(double k, double c, double d, double m) {
 
 /// A step not above the critical one, at little cost: first without the strain damping D, then with
 /// h D/2 at that step as additional mass.
-double lower_estimate(const BlockEquations& q, const Damping& damping) {
-  const NodalMatrix stiffness = (1.0 + damping.local) * q.stiffness();
+template <class Matrix>
+double lower_estimate(const BlockEquations<Matrix>& q, const Damping& damping) {
+  const Matrix stiffness = (1.0 + damping.local) * q.stiffness();
   const bool viscous = q.viscous.trace() > 0.0, dashpots = q.dashpots.trace() > 0.0;
   double h = 0.0;
   for (int round = 0; round < (viscous ? 2 : 1); ++round) {
-    const Eigen::LLT<NodalMatrix> mass(q.mass + (0.5 * h) * q.viscous);
+    const Eigen::LLT<Matrix> mass(q.mass + (0.5 * h) * q.viscous);
     const double k = eigenvalue_bound(stiffness, mass);
     if (!(k > 0.0)) return std::numeric_limits<double>::infinity();
     const double c = dashpots ? eigenvalue_bound(q.dashpots, mass) : 0.0;
@@ -71,11 +73,14 @@ double lower_estimate(const BlockEquations& q, const Damping& damping) {
 /// taken with the old velocity and D with the new one. For each vector v there is one h > 0 at
 /// which v.A(h) v vanishes. The worst v is found by iteration: at the step that v allows, the
 /// eigenvector of the least eigenvalue of A is the next v.
-double critical_step_of(const BlockEquations& q, const Damping& damping) {
-  const NodalMatrix k = (1.0 + damping.local) * q.stiffness();
-  const Eigen::GeneralizedSelfAdjointEigenSolver<NodalMatrix> first(k, q.mass);
+template <class Matrix>
+double critical_step_of(const BlockEquations<Matrix>& q, const Damping& damping) {
+  using Vector = typename BlockEquations<Matrix>::Vector;
+  const Matrix k = (1.0 + damping.local) * q.stiffness();
+  const Eigen::Index fastest = k.rows() - 1;  // of the modes of a block
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix> first(k, q.mass);
   if (!(first.eigenvalues()[fastest] > 0.0)) return std::numeric_limits<double>::infinity();
-  const auto allowed = [&](const NodalVector& v) {
+  const auto allowed = [&](const Vector& v) {
     return root_of_step(v.dot(k * v), v.dot(q.dashpots * v), v.dot(q.viscous * v),
                         v.dot(q.mass * v));
   };
@@ -83,8 +88,8 @@ double critical_step_of(const BlockEquations& q, const Damping& damping) {
   if (q.viscous.trace() > 0.0 || q.dashpots.trace() > 0.0) {
     constexpr int most_rounds = 30;
     for (int round = 0; round < most_rounds; ++round) {
-      const NodalMatrix left = q.mass + (0.5 * h) * (q.viscous - q.dashpots) - (0.25 * h * h) * k;
-      const Eigen::GeneralizedSelfAdjointEigenSolver<NodalMatrix> solver(left, q.mass);
+      const Matrix left = q.mass + (0.5 * h) * (q.viscous - q.dashpots) - (0.25 * h * h) * k;
+      const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix> solver(left, q.mass);
       const double next = allowed(solver.eigenvectors().col(0));
       const bool converged = !(next < h * (1.0 - 1e-12));
       h = std::min(h, next);
@@ -92,6 +97,13 @@ double critical_step_of(const BlockEquations& q, const Damping& damping) {
     }
   }
   return not_beyond_mass_damping(h, damping);
+}
+
+/// Calls body(equations) with those of block i, in the matrices that it needs.
+template <class Body>
+auto with_equations(const StiffnessInputs& w, std::size_t i, Body body) {
+  if (w.blocks.bending.modes_of(i) == 0) return body(equations_of<NodalMatrix>(w, i));
+  return body(equations_of<EquationMatrix>(w, i));
 }
 
 /// The smallest exact step of all blocks, and the first block that has it.
@@ -114,16 +126,20 @@ class BlockSteps {
   double below(double limit, std::size_t i) {
     const std::uint64_t now = equations_hash(w_, i);
     if (now == 0 || now != known_.equations_hash[i]) {
-      const BlockEquations q = equations_of(w_, i);
       known_.equations_hash[i] = now;
-      known_.estimate[i] = lower_estimate(q, w_.damping);
-      known_.exact[i] = known_.estimate[i] < limit ? critical_step_of(q, w_.damping) : unknown;
+      with_equations(w_, i, [&](const auto& q) {
+        known_.estimate[i] = lower_estimate(q, w_.damping);
+        known_.exact[i] = known_.estimate[i] < limit ? critical_step_of(q, w_.damping) : unknown;
+      });
     }
     return known_.estimate[i] < limit ? exact(i) : known_.estimate[i];
   }
   /// The exact step; call below() of this block first.
   double exact(std::size_t i) {
-    if (!is_known(i)) known_.exact[i] = critical_step_of(equations_of(w_, i), w_.damping);
+    if (!is_known(i)) {
+      known_.exact[i] =
+          with_equations(w_, i, [&](const auto& q) { return critical_step_of(q, w_.damping); });
+    }
     return known_.exact[i];
   }
   /// Whether the exact step is known.
@@ -157,12 +173,14 @@ Smallest smallest_step(BlockSteps& steps, const std::vector<double>& estimates) 
 }
 
 /// Finds which stiffness governs the step of block i: its parts in the fastest mode.
-void explain(StepBound& bound, const StiffnessInputs& w, std::size_t i) {
-  const BlockEquations k = equations_of(w, i);
+template <class Matrix>
+void explain(StepBound& bound, const StiffnessInputs& w, std::size_t i,
+             const BlockEquations<Matrix>& k) {
+  using Vector = typename BlockEquations<Matrix>::Vector;
   const double h = bound.critical_step;
-  const Eigen::GeneralizedSelfAdjointEigenSolver<NodalMatrix> solver(
-      k.stiffness(), k.mass + (0.5 * h) * k.viscous);
-  const NodalVector mode = solver.eigenvectors().col(fastest);
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix> solver(k.stiffness(),
+                                                                k.mass + (0.5 * h) * k.viscous);
+  const Vector mode = solver.eigenvectors().col(k.mass.rows() - 1);
   const double total = mode.dot(k.stiffness() * mode);
   bound.elastic_part = std::max(0.0, mode.dot(k.elastic * mode) / total);  // not below by rounding
   bound.boundary_part = mode.dot(k.boundary * mode) / total;
@@ -170,7 +188,8 @@ void explain(StepBound& bound, const StiffnessInputs& w, std::size_t i) {
   bound.contact_part = 1.0 - bound.elastic_part - bound.boundary_part - bound.bolt_part;
   double largest = 0.0;
   for (const SpringOnBlock& p : k.parts) {
-    const double hn = p.normal.dot(mode), ht = p.tangent.dot(mode);
+    const double hn = at_corner_of<Vector>(w.blocks, i, p, p.normal).dot(mode),
+                 ht = at_corner_of<Vector>(w.blocks, i, p, p.tangent).dot(mode);
     const double part = p.kn * hn * hn + p.ks * ht * ht;
     if (part > largest) {
       largest = part;
@@ -201,7 +220,9 @@ StepBound step_bound(const StiffnessInputs& inputs, StepCache* known) {
   StepBound bound;
   bound.critical_step = critical.step;
   bound.block = critical.block;
-  if (bound.block != no_id) explain(bound, inputs, bound.block);
+  if (bound.block == no_id) return bound;
+  with_equations(inputs, bound.block,
+                 [&](const auto& k) { explain(bound, inputs, bound.block, k); });
   return bound;
 }
 

@@ -28,11 +28,22 @@ void fill_viscosity(Masses& masses, const BlockSet& b, const Damping& damping) {
   const bool elastic =
       std::all_of(b.damping.begin(), b.damping.end(), [](double zeta) { return zeta == 0.0; });
   masses.viscosity.clear();
+  for (std::vector<double>& rate : masses.mode_damping) rate.clear();
   if (damping.rayleigh ? damping.rayleigh->fraction == 0.0 : elastic) return;
   masses.viscosity.assign(b.size(), 0.0);
   parallel_for(b.size(), [&](std::size_t i) {
     masses.viscosity[i] = damping.rayleigh ? damping.rayleigh->stiffness()
                                            : 2.0 * b.damping[i] / lowest_frequency(b, masses, i);
+  });
+  if (!b.bending.any()) return;
+  for (std::vector<double>& rate : masses.mode_damping) rate.assign(b.size(), 0.0);
+  parallel_for(b.size(), [&](std::size_t i) {
+    for (std::size_t k = 0; k <= bendings; ++k) {
+      const double stiffness = k < bendings ? b.bending.kappa[k][i] : b.bending.rest_stiffness[i];
+      const double square = stiffness * masses.mode_inverse[i];
+      masses.mode_damping[k][i] = damping.rayleigh ? damping.rayleigh->stiffness() * square
+                                                   : 2.0 * b.damping[i] * std::sqrt(square);
+    }
   });
 }
 

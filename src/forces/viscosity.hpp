@@ -11,8 +11,9 @@ namespace edda {
 double lowest_frequency(const BlockSet& blocks, const Masses& masses, std::size_t i);
 
 /// Fills Masses::viscosity, eta = 2 zeta/w with zeta of BlockSet::damping and w the block's lowest
-/// frequency; with Rayleigh damping, its stiffness-proportional part instead. Call again whenever
-/// masses or damping change.
+/// frequency; with Rayleigh damping, its stiffness-proportional part instead. The same for the
+/// modes of blocks that bend, Masses::mode_damping, each with its own frequency. Call again
+/// whenever masses or damping change.
 void fill_viscosity(Masses& masses, const BlockSet& blocks, const Damping& damping);
 
 }  // namespace edda

@@ -80,8 +80,8 @@ OwnKicks own_kicks(const Leap& leap, double h_of_positions) {
 }
 
 Leap damped_by(const Leap& leap, const StepDamping& other) {
-  return {leap.blocks, leap.masses, leap.force_x, leap.force_y, leap.old_vx,
-          leap.old_vy, leap.h_old,  leap.h_new,   other};
+  return {leap.blocks, leap.masses, leap.force_x, leap.force_y,     leap.old_vx,  leap.old_vy,
+          leap.h_old,  leap.h_new,  other,        leap.force_modes, leap.old_rate};
 }
 
 /// The first block of [begin, end) that local damping spares; else `end`.
@@ -94,6 +94,14 @@ std::size_t next_spared(const StepDamping& damping, std::size_t begin, std::size
 
 double local_damping_of(const StepDamping& damping, std::size_t i) {
   return next_spared(damping, i, i + 1) == i ? 0.0 : damping.local;
+}
+
+/// The kick of block i, with the damping that acts on it.
+Kick kick_of_block(const Leap& leap, std::size_t i) {
+  Kick kick =
+      leap.damping.kicks != nullptr ? own_kicks(leap, leap.h_new).of(i) : kick_of(leap, leap.h_new);
+  kick.local = local_damping_of(leap.damping, i);
+  return kick;
 }
 
 }  // namespace
@@ -156,6 +164,20 @@ void advance(State& s, const Leap& leap, std::size_t begin, std::size_t end) {
   if (strains) damp_strain_and_move(*damping.strain, b, masses, s, step, begin, end);
 }
 
+ModeLeap of_modes(const Leap& leap, ModeDamping* damping) {
+  return {leap.blocks, leap.masses, *leap.force_modes, *leap.old_rate, leap.old_vx,
+          leap.old_vy, damping};
+}
+
+void advance_modes(State& s, const Leap& leap, ModeDamping* damping, Nodes& fx, Nodes& fy,
+                   std::size_t begin, std::size_t end) {
+  const ModeLeap modes = of_modes(leap, damping);
+  for (std::size_t i = begin; i < end; ++i) {
+    if (leap.blocks.bending.modes_of(i) > 0 && s.alive[i] != 0)
+      advance_modes(s, modes, kick_of_block(leap, i), i, fx, fy);
+  }
+}
+
 void add_and_advance(State& s, const Leap& leap, const ForcesToAdd& forces, std::size_t begin,
                      std::size_t end) {
   const StepDamping& damping = leap.damping;
@@ -180,8 +202,41 @@ void advance(State& s, const Leap& leap) {
   });
 }
 
-void account_damping(const State& s, const Leap& leap, DampingWork& work) {
+namespace {
+
+/// Dissipation of the modes of block i.
+double dissipated_by_modes(const State& s, const Leap& leap, const ModeDamping* strain,
+                           std::size_t i) {
   const BlockSet& b = leap.blocks;
+  const BlockModes modes = b.modes(i);
+  double work = 0.0;
+  const double local = local_damping_of(leap.damping, i), by_mass = leap.damping.mass_of(i);
+  for (std::size_t m = modes.first; m < modes.first + modes.count; ++m) {
+    const Vec2 before = (*leap.old_rate)[m], after = s.bend_rate[m];
+    const Vec2 moved = half_way(before, after, leap.h_old, leap.h_new);
+    work -= dot(local_damping((*leap.force_modes)[m], before, local), moved);
+    work += by_mass / leap.masses.mode_inverse[i] * dot(0.5 * (before + after), moved);
+  }
+  if (strain == nullptr || strain->couple.empty()) return work;
+  const NodeVectors before = vectors_of(leap.old_vx, leap.old_vy, i),
+                    after = vectors_of(s.vx, s.vy, i);
+  const NodeVectors moved = (0.5 * leap.h_old) * before + (0.5 * leap.h_new) * after;
+  const NodeVectors at_n = vectors_of(s.x, s.y, i) - leap.h_new * after;
+  return work + mode_dissipation(*strain, of_modes(leap, nullptr), s, leap.h_old, leap.h_new,
+                                 rotation(gradient_of(b, at_n, i)), moved, i);
+}
+
+}  // namespace
+
+void account_damping(const State& s, const Leap& leap, DampingWork& work,
+                     const ModeDamping* modes) {
+  const BlockSet& b = leap.blocks;
+  if (leap.force_modes != nullptr) {
+    parallel_for(b.size(), [&](std::size_t i) {
+      if (b.bending.modes_of(i) > 0 && s.alive[i] != 0)
+        work.joules[i] += dissipated_by_modes(s, leap, modes, i);
+    });
+  }
   const StepDamping& damping = leap.damping;
   const Nodes &old_vx = leap.old_vx, &old_vy = leap.old_vy;
   const double h_old = leap.h_old, h_new = leap.h_new;
@@ -231,8 +286,12 @@ void account_damping(const State& s, const Leap& leap, DampingWork& work) {
   });
 }
 
-void undo_step(State& s, const BlockSet& b, double h_new, const Nodes& old_vx,
-               const Nodes& old_vy) {
+void undo_step(State& s, const BlockSet& b, double h_new, const Nodes& old_vx, const Nodes& old_vy,
+               const ModeVectors& old_rate) {
+  for (std::size_t m = 0; m < old_rate.size(); ++m) {
+    s.bend.add(m, -h_new * s.bend_rate[m]);
+    s.bend_rate.set(m, old_rate[m]);
+  }
   parallel_for(b.size(), [&](std::size_t i) {
     add(-h_new * vectors_of(s.vx, s.vy, i), s.x, s.y, i);
     store(vectors_of(old_vx, old_vy, i), s.vx, s.vy, i);
@@ -240,9 +299,16 @@ void undo_step(State& s, const BlockSet& b, double h_new, const Nodes& old_vx,
 }
 
 void start_velocities(State& s, const BlockSet& b, const Masses& masses, const Nodes& force_x,
-                      const Nodes& force_y, double h, double mass_damping) {
+                      const Nodes& force_y, double h, double mass_damping,
+                      const ModeVectors& force_modes) {
   parallel_for(b.size(), [&](std::size_t i) {
     if (b.fixed[i] || !s.alive[i]) return;
+    const BlockModes modes = b.modes(i);
+    for (std::size_t m = modes.first; m < modes.first + modes.count && force_modes.size() > 0;
+         ++m) {
+      const Vec2 a = masses.mode_inverse[i] * force_modes[m] - mass_damping * s.bend_rate[m];
+      s.bend_rate.add(m, -0.5 * h * a);
+    }
     const NodeVectors a = accelerations(masses, i, vectors_of(force_x, force_y, i));
     add(-0.5 * h * (a - mass_damping * vectors_of(s.vx, s.vy, i)), s.vx, s.vy, i);
   });

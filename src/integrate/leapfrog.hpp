@@ -6,6 +6,7 @@
 #include "blocks/kinematics.hpp"
 #include "blocks/masses.hpp"
 #include "integrate/kick.hpp"
+#include "integrate/mode_step.hpp"
 #include "integrate/strain_damping.hpp"
 
 namespace edda {
@@ -38,7 +39,16 @@ struct Leap {
   const Nodes &old_vx, &old_vy;    ///< [nodes][nb] v_{n-1/2}, m/s
   double h_old, h_new;             ///< last and next step, before and after n, s
   const StepDamping& damping;
+  const ModeVectors* force_modes = nullptr;  ///< [modes] on the modes, N; null: no block bends
+  const ModeVectors* old_rate = nullptr;     ///< [modes] v_{n-1/2} of the modes, m/s
 };
+
+/// The modes of the blocks in that step; only where some bend.
+ModeLeap of_modes(const Leap& leap, ModeDamping* damping);
+/// Moves the modes of the blocks [begin, end), before their nodes, and adds the couples of their
+/// damping to the forces on these.
+void advance_modes(State& state, const Leap& leap, ModeDamping* damping, Nodes& fx, Nodes& fy,
+                   std::size_t begin, std::size_t end);
 
 /// v_{n+1/2} = v_{n-1/2} + a_n (h_old + h_new)/2, x_{n+1} = x_n + h_new v_{n+1/2} for the free
 /// blocks of [begin, end). Mass-proportional damping is centred: v+ = ((1 - a h/2) v- + h f/m)/(1 +
@@ -54,15 +64,17 @@ void add_and_advance(State& state, const Leap& leap, const ForcesToAdd& forces, 
 
 /// Accounts for the dissipation of the step just made, once its velocities are final: damping force
 /// times (x_{n+1} - x_{n-1})/2.
-void account_damping(const State& state, const Leap& leap, DampingWork& work);
+/// `modes`: what the damping of the modes did in it; or null.
+void account_damping(const State& state, const Leap& leap, DampingWork& work,
+                     const ModeDamping* modes = nullptr);
 
 /// Undoes the last advance().
 void undo_step(State& state, const BlockSet& blocks, double h_new, const Nodes& old_vx,
-               const Nodes& old_vy);
+               const Nodes& old_vy, const ModeVectors& old_rate = {});
 
 /// Start: v_{-1/2} = v_0 - (f/m - a v_0) h/2, with the mass-proportional damping a, 1/s.
 void start_velocities(State& state, const BlockSet& blocks, const Masses& masses,
                       const Nodes& force_x, const Nodes& force_y, double h,
-                      double mass_damping = 0.0);
+                      double mass_damping = 0.0, const ModeVectors& force_modes = {});
 
 }  // namespace edda

@@ -210,7 +210,7 @@ void Simulation::vertices(std::span<double> out) const {
   const State& s = impl_->sim().motion.state;
   check_size("vertices", out.size(), 2 * b.vertex_count());
   for (std::size_t v = 0; v < b.vertex_count(); ++v) {
-    const Vec2 p = vertex_at(b, s.x, s.y, v) + b.origin;
+    const Vec2 p = corner_at(b, s.x, s.y, s.bend, v) + b.origin;
     out[2 * v] = p.x;
     out[2 * v + 1] = p.y;
   }

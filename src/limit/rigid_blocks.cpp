@@ -338,9 +338,10 @@ RigidForces loads_with(const RigidBlocks& rigid, const Simulation& sim,
     now.weight[q] = factors.waters[q] * unit_weight(sim, q);
   for (std::size_t r = 0; r < all.size(); ++r) {
     for (const Id i : rigid.blocks[r]) {
-      NodeVectors f{};
-      add_loads(f, b, now, sim.motion.pose.x, sim.motion.pose.y, i);
+      BlockForces on{b, i};
+      add_loads(on, now, sim.motion.pose.x, sim.motion.pose.y);
       const NodeVectors x = vectors_of(sim.motion.state.x, sim.motion.state.y, i);
+      const NodeVectors& f = on.nodes;
       all[r].force += resultant(f);
       for (std::size_t k = 0; k < nodes_per_block; ++k)
         all[r].moment += cross(x[k] - rigid.centroid[r], f[k]);

@@ -270,6 +270,7 @@ struct Model {
   Vec2 gravity{0.0, -9.81};  ///< m/s2
   Plane plane = Plane::strain;
   double thickness = 1.0;  ///< m
+  BlockDeformation deformation = BlockDeformation::uniform;
 
   std::vector<Material> materials;
   std::vector<JointLaw> joints;

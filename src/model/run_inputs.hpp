@@ -14,6 +14,8 @@
 namespace edda {
 
 enum class Method { edda, dda };
+/// How a block deforms: its corners deviate from the uniform strain, or do not.
+enum class BlockDeformation { corners, uniform };
 enum class MassKind { matched, covering, consistent };
 enum class Switching { exact, plain };
 enum class StageEnd { time, equilibrium, collapse };

@@ -1,5 +1,5 @@
-// Blocks of one strain that are too coarse for stiff joints: how much of a closure or of a bending
-// deflection is lost (theory, section 4.9).
+// Blocks too coarse for an opening, or of one strain between stiff joints: how much of a closure or
+// of a bending deflection is lost (theory, section 4.9).
 #pragma once
 
 #include <string>
@@ -16,13 +16,18 @@ struct LockedOpening {
   double size = 0.0;       ///< m, of the blocks there: root of the mean area
   double radius = 0.0;     ///< m: root of the area of the opening over pi
   double lost = 0.0;       ///< part of the closure
+  bool bends = false;      ///< most of these blocks bend, and are too large for the opening
 };
 std::vector<LockedOpening> locked_openings(const Simulation& sim);
 
-/// Part of its elastic closure that an opening loses, with x = (0.13 kn + 0.15 ks)
-/// (block/radius)^2: stiffnesses of the joints over those of their blocks, kn as the joint bends;
-/// none for triangles.
+/// Part of its elastic closure that an opening loses among blocks that do not bend, with x = (2 -
+/// k) (0.13 kn + 0.15 ks) (block/radius)^2: ratio k of the principal stresses of the ground, 0 to
+/// 1, and stiffnesses of the joints over those of their blocks, kn as the joint bends; none for
+/// triangles.
 double lost_closure(double x);
+
+/// The same among blocks that bend, by the ratio of their size to the radius.
+double lost_by_size(double size);
 
 /// Blocks glued in a row, which loads bend.
 struct LockedRow {

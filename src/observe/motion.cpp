@@ -12,7 +12,7 @@ namespace {
 double corner_speed(const BlockSet& b, const State& s, std::size_t i) {
   double speed = 0.0;
   for (Id v = b.vertex_begin[i]; v < b.vertex_begin[i + 1]; ++v) {
-    speed = std::max(speed, norm(vertex_at(b, s.vx, s.vy, v)));
+    speed = std::max(speed, norm(corner_at(b, s.vx, s.vy, s.bend_rate, v)));
   }
   return speed;
 }

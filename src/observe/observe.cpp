@@ -65,6 +65,16 @@ void add_stresses(ContactRecord& r, const Simulation& sim, const FaceSet& f, std
   r.shear_stress = area > 0.0 ? r.shear_force / area : 0.0;
 }
 
+/// Displacement of vertex v, m.
+Vec2 displacement_of_corner(const BlockSet& b, const State& s, std::size_t v) {
+  const std::size_t i = b.vertex_block[v];
+  const BlockModes modes = b.modes(i);
+  const Vec2 affine = displacement_of(s, i, weights_of(b.weight, v));
+  if (modes.count == 0) return affine;
+  const std::size_t at = v - b.vertex_begin[i];
+  return affine + modes.at(s.bend, at) - modes.at(s.from_bend, at);
+}
+
 ContactRecord face_record(const Simulation& sim, const FaceSet& f, std::size_t k) {
   const BlockSet& b = sim.scene->blocks;
   ContactRecord r;
@@ -79,8 +89,9 @@ ContactRecord face_record(const Simulation& sim, const FaceSet& f, std::size_t k
   r.b = span.b + b.origin;
   r.length = f.now.length[k];
   const double eta = 0.5 * (f.now.eta_a[k] + f.now.eta_b[k]);
-  r.displacement = displacement_of(sim.motion.state, r.block_i,
-                                   weights_between(b, f.facing_end[k], f.facing[k], eta));
+  const State& s = sim.motion.state;
+  r.displacement = (1.0 - eta) * displacement_of_corner(b, s, f.facing_end[k]) +
+                   eta * displacement_of_corner(b, s, f.facing[k]);
   r.opening = -closure_of(f, k);
   r.slip = slip_since_start(b, f, k);
   r.ever_slipped = f.slipped[k] > 0.0;
@@ -128,10 +139,11 @@ void place_points(const BlockSet& b, const State& s, Picture& p) {
   const std::size_t nv = b.vertex_count();
   for (auto* values : {&p.x, &p.y, &p.ux, &p.uy, &p.vx, &p.vy}) values->resize(nv);
   parallel_for(nv, [&](std::size_t v) {
-    const Vec2 now = vertex_at(b, s.x, s.y, v), speed = vertex_at(b, s.vx, s.vy, v);
+    const Vec2 now = corner_at(b, s.x, s.y, s.bend, v),
+               speed = corner_at(b, s.vx, s.vy, s.bend_rate, v);
     p.x[v] = now.x + b.origin.x;
     p.y[v] = now.y + b.origin.y;
-    const Vec2 u = displacement_of(s, b.vertex_block[v], weights_of(b.weight, v));
+    const Vec2 u = displacement_of_corner(b, s, v);
     p.ux[v] = u.x;
     p.uy[v] = u.y;
     p.vx[v] = speed.x;
@@ -146,7 +158,7 @@ void observe_blocks(const Simulation& sim, Instant& at) {
   at.state = motion.state;
   at.forces = motion.forces;
   gather_forces(at.forces, sim.scene->blocks, motion.state, motion.pose, motion.on_faces,
-                sim.attached.springs, sim.scene->model.gravity, acting(sim));
+                sim.attached.springs, sim.scene->model.gravity, acting(sim), motion.locked);
   sim.stepper->look(sim, at);
 }
 

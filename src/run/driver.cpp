@@ -36,7 +36,7 @@ Id most_energetic(const Simulation& sim) {
   for (Id i = 0; i < sim.scene->blocks.size(); ++i) {
     if (!is_free(sim.scene->blocks, sim.motion.state, i)) continue;
     const double energy =
-        kinetic_energy(sim.motion.masses, sim.motion.state.vx, sim.motion.state.vy, i) /
+        kinetic_energy(sim.motion.masses, sim.scene->blocks, sim.motion.state, i) /
         sim.scene->blocks.mass[i];
     if (energy > most) {
       most = energy;

@@ -108,7 +108,7 @@ void Driver::report(bool last) {
   p.seconds_left = last ? 0.0 : rate_ > 0.0 ? left / rate_ : -1.0;
   for (std::size_t i = 0; i < sim_.scene->blocks.size(); ++i) {
     if (sim_.scene->blocks.fixed[i] || !sim_.motion.state.alive[i]) continue;
-    p.kinetic += kinetic_energy(sim_.motion.masses, sim_.motion.state.vx, sim_.motion.state.vy, i);
+    p.kinetic += kinetic_energy(sim_.motion.masses, sim_.scene->blocks, sim_.motion.state, i);
     p.largest_velocity =
         std::max(p.largest_velocity, norm(centroid(sim_.motion.state.vx, sim_.motion.state.vy, i)));
   }

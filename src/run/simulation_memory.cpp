@@ -70,6 +70,24 @@ void list_state(Archive& a, Simulation& s) {
   a("forces.y", s.motion.forces.y);
 }
 
+/// The modes of blocks that bend, and the forces on them.
+template <class Archive>
+void list_modes(Archive& a, Simulation& s) {
+  const auto list = [&a](const std::string& name, ModeVectors& modes) {
+    a(name + "_x", modes.x);
+    a(name + "_y", modes.y);
+  };
+  list("state.bend", s.motion.state.bend);
+  list("state.bend_rate", s.motion.state.bend_rate);
+  list("state.from_bend", s.motion.state.from_bend);
+  list("locked", s.motion.locked);
+  list("forces.modes", s.motion.forces.modes);
+  list("on_faces_modes", s.motion.on_faces.modes);
+  list("jump_modes", s.motion.jump.modes);
+  list("frequency_estimate.bend", s.relaxation.estimate.bend);
+  list("frequency_estimate.on_modes", s.relaxation.estimate.on_modes);
+}
+
 template <class Archive>
 void list_counts(Archive& a, Simulation& s) {
   a("bound.critical_step", s.control.bound.critical_step);
@@ -189,6 +207,19 @@ void examine(Examiner& j, const Simulation& s) {
       if (!s.motion.jump.x[0].empty() || !values.empty()) j.sized("jump", values, nb);
     }
   }
+  const std::size_t modes = s.scene->blocks.bending.modes();
+  for (const ModeVectors* of :
+       {&s.motion.state.bend, &s.motion.state.bend_rate, &s.motion.state.from_bend,
+        &s.motion.forces.modes, &s.motion.on_faces.modes}) {
+    j.sized("state.bend", of->x, modes);
+    j.sized("state.bend", of->y, modes);
+  }
+  for (const ModeVectors* of : {&s.motion.locked, &s.motion.jump.modes, &s.relaxation.estimate.bend,
+                                &s.relaxation.estimate.on_modes}) {
+    if (of->x.empty() && of->y.empty()) continue;
+    j.sized("modes", of->x, modes);
+    j.sized("modes", of->y, modes);
+  }
   j.sized("state.alive", s.motion.state.alive, nb);
   j.sized("state.turns", s.motion.state.turns, nb);
   j.sized("damping_work", s.accounts.damping_work.joules, nb);
@@ -219,6 +250,7 @@ void examine(Examiner& j, const Simulation& s) {
 template <class Archive>
 void list_memory(Archive& a, Simulation& s) {
   list_state(a, s);
+  if (s.scene->blocks.bending.any()) list_modes(a, s);
   list_faces(a, s.motion.contacts);
   a("on_faces_x", s.motion.on_faces.x);
   a("on_faces_y", s.motion.on_faces.y);

@@ -44,6 +44,7 @@ void set_strength_factor(Simulation& sim, double factor) {
 void reset_displacements(Simulation& sim) {
   State& state = sim.motion.state;
   state.from_x = state.x;
+  state.from_bend = state.bend;
   state.from_y = state.y;
 }
 

@@ -57,7 +57,8 @@ void reset_displacements(Simulation& sim);
 void exchange_velocity_arrays(Simulation& sim);
 /// Replaces the velocities of the nodes (finite, m/s); those of blocks that are not free do not
 /// change.
-void change_velocities(Simulation& sim, const Nodes& vx, const Nodes& vy);
+void change_velocities(Simulation& sim, const Nodes& vx, const Nodes& vy,
+                       const ModeVectors* rate = nullptr);
 /// The ground and all free blocks lose the velocity v (m/s), as if the last step had been made
 /// without it: the model is seen from a frame that moves with v. None of its forces changes.
 void lose_velocity(Simulation& sim, Vec2 v);

@@ -18,7 +18,7 @@ void place_all(Simulation& sim) {
   State& state = sim.motion.state;
   Pose& pose = sim.motion.pose;
   parallel_for(blocks.size(), [&](std::size_t i) {
-    if (state.alive[i]) place_vertices(blocks, state.x, state.y, i, pose.x, pose.y);
+    if (state.alive[i]) place_vertices(blocks, state.x, state.y, state.bend, i, pose.x, pose.y);
   });
 }
 

@@ -8,6 +8,8 @@
 #include "contacts/find_faces.hpp"
 #include "contacts/strength.hpp"
 #include "cutting/build_polygons.hpp"
+#include "cutting/cut_domain.hpp"
+#include "cutting/t_nodes.hpp"
 #include "step/changes.hpp"
 #include "step/contact_search.hpp"
 #include "step/restitution.hpp"
@@ -38,6 +40,16 @@ double largest_displacement(const BlockSet& b, double ratio) {
   return std::min(ratio * 0.5 * least_width(points), 0.1 * edge);
 }
 
+/// How far from an edge a corner of a neighbour may lie to be on it, m: by what the cut moves
+/// lines, and by rounding.
+double t_node_tolerance(const Model& model, const PolygonSet& polygons) {
+  constexpr double rounding = 1e-7;  // of the size of a block
+  double area = 0.0;
+  for (const BlockPolygon& block : polygons.blocks) area += moments(block.rings).area;
+  const double size = std::sqrt(area / static_cast<double>(polygons.blocks.size()));
+  return std::max(model.domain ? snap_of(model) : 0.0, rounding * size);
+}
+
 Result<Scene> build_scene(Model given, BlockOrder order, const Stepper& stepper) {
   Scene scene;
   scene.model = std::move(given);
@@ -49,6 +61,8 @@ Result<Scene> build_scene(Model given, BlockOrder order, const Stepper& stepper)
     scene.polygons.reversed = true;
   }
   const Solver& solver = scene.model.solver;
+  add_t_nodes(scene.polygons, t_node_tolerance(scene.model, scene.polygons),
+              [&](std::size_t i) { return may_bend(scene.model, scene.polygons.blocks[i]); });
   BlockSet& blocks = scene.blocks;
   blocks = build_blocks(scene.model, scene.polygons);
   if (std::vector<Fault> faults = fit_restitution(scene.model, blocks); !faults.empty()) {
@@ -99,7 +113,7 @@ void place_blocks(Simulation& sim) {
   Motion& motion = sim.motion;
   const std::size_t nb = blocks.size(), nv = blocks.vertex_count();
   motion.state = initial_state(blocks, sim.scene->polygons);
-  motion.forces = {zero_nodes(nb), zero_nodes(nb)};
+  motion.forces = motion.on_faces = no_forces(blocks);
   motion.on_dashpots.assign(sim.attached.dashpots.points.size(), Vec2{});
   sim.accounts.damping_work.joules.assign(nb, 0.0);
   Pose& pose = motion.pose;

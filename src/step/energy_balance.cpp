@@ -6,6 +6,7 @@
 
 #include "base/parallel.hpp"
 #include "contacts/face_energy.hpp"
+#include "forces/bending_forces.hpp"
 #include "forces/elastic.hpp"
 #include "step/simulation.hpp"
 
@@ -72,9 +73,11 @@ EnergyBalance energy_balance(const Simulation& sim) {
   const auto in_faces = [&](std::size_t k) { return face_energy(c, b, sim.motion.pose, k); };
   const std::vector<double>& damped = accounts.damping_work.joules;
   EnergyBalance l;
-  l.kinetic =
-      over_free([&](std::size_t i) { return kinetic_energy(sim.motion.masses, s.vx, s.vy, i); });
-  l.strain = over_free([&](std::size_t i) { return block_strain_energy(b, s, behind, i); });
+  l.kinetic = over_free([&](std::size_t i) { return kinetic_energy(sim.motion.masses, b, s, i); });
+  l.strain = over_free([&](std::size_t i) {
+    return block_strain_energy(b, s, behind, i) +
+           bending_energy(b, s, sim.motion.locked, behind, i);
+  });
   l.gravity = over_free([&](std::size_t i) {
     return block_gravity_energy(b, s, behind, sim.scene->model.gravity, i);
   });

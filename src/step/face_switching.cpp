@@ -21,17 +21,12 @@ double nearest_root(double a, double b, double c) {
   return -2.0 * a / (b + std::copysign(std::sqrt(square), b));
 }
 
-/// The forces of a face on the nodes of its two blocks.
+/// The forces of a face on the edges of its two blocks.
 struct OnBlocks {
-  NodeVectors first{}, second{};
+  EdgeForce first, second;
 };
-OnBlocks on_blocks(const FaceSet& c, const BlockSet& b, const CornerForces& f, std::size_t k) {
-  OnBlocks on;
-  spread(on.first, b, c.edge[k], f.p1);
-  spread(on.first, b, c.edge_end[k], f.p2);
-  spread(on.second, b, c.facing[k], f.q1);
-  spread(on.second, b, c.facing_end[k], f.q2);
-  return on;
+OnBlocks on_blocks(const FaceSet& c, const CornerForces& f, std::size_t k) {
+  return {{c.edge[k], c.edge_end[k], f.p1, f.p2}, {c.facing[k], c.facing_end[k], f.q1, f.q2}};
 }
 
 CornerForces difference(const CornerForces& f, const CornerForces& g) {
@@ -43,12 +38,6 @@ bool any(const CornerForces& f) {
     if (v.x != 0.0 || v.y != 0.0) return true;
   }
   return false;
-}
-
-/// Change of the velocity of one block along f in the step, times f.
-double mobility(const StepTaken& taken, Id i, const NodeVectors& force) {
-  if (taken.blocks.fixed[i]) return 0.0;
-  return taken.kick_of(i) * dot(accelerations(taken.masses, i, force), force);
 }
 
 class Correction {
@@ -235,7 +224,7 @@ class Correction {
     const Face before = face_at(c_, b_, pose_.x2, pose_.y2, k, risen);
     f.was_closed = before.energy > 0.0;
     f.stored = stored_between(before, f.then, f.element, f.at, false);
-    const OnBlocks on = on_blocks(c_, b_, f.element.force, k);
+    const OnBlocks on = on_blocks(c_, f.element.force, k);
     f.own_work = taken_.h_new * (mobility(taken_, b_.vertex_block[c_.edge[k]], on.first) +
                                  mobility(taken_, b_.vertex_block[c_.facing[k]], on.second));
     f.alpha = 1.0;
@@ -272,16 +261,16 @@ class Correction {
     f.corrected_at = ++g.corrections;
     f.done = change <= converged;
     if (!any(more)) return f.done;
-    const OnBlocks on = on_blocks(c_, b_, more, k);
+    const OnBlocks on = on_blocks(c_, more, k);
     push(g, f, i, on.first);
     push(g, f, j, on.second);
     return f.done;
   }
 
   /// A fixed block does not move, and may have very many faces.
-  void push(SwitchingGroup& g, const SwitchingFace& f, Id i, const NodeVectors& force) {
+  void push(SwitchingGroup& g, const SwitchingFace& f, Id i, const EdgeForce& force) {
     if (b_.fixed[i]) {
-      g.on_fixed += resultant(force);
+      g.on_fixed += force.at_edge + force.at_end;
       return;
     }
     g.pushed_by += push_block(taken_, i, force);

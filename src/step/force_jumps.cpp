@@ -13,7 +13,7 @@ NodalForces forces_now(const Simulation& sim) {
   if (sim.stepper->velocity_lag == 0.0 || sim.control.step_before == 0.0) return {};
   NodalForces found = sim.motion.forces;
   gather_forces(found, sim.scene->blocks, sim.motion.state, sim.motion.pose, sim.motion.on_faces,
-                sim.attached.springs, sim.scene->model.gravity, acting(sim));
+                sim.attached.springs, sim.scene->model.gravity, acting(sim), sim.motion.locked);
   return found;
 }
 
@@ -23,7 +23,9 @@ void note_jump(Simulation& sim, const NodalForces& before) {
   NodalForces& jump = sim.motion.jump;
   if (before.x[0].empty()) return;
   const NodalForces now = forces_now(sim);
-  if (jump.x[0].empty()) jump = {zero_nodes(blocks.size()), zero_nodes(blocks.size())};
+  if (jump.x[0].empty()) jump = no_forces(blocks);
+  for (std::size_t m = 0; m < jump.modes.size(); ++m)
+    jump.modes.add(m, now.modes[m] - before.modes[m]);
   for (std::size_t i = 0; i < blocks.size(); ++i) {
     add(vectors_of(now.x, now.y, i) - vectors_of(before.x, before.y, i), jump.x, jump.y, i);
   }
@@ -37,16 +39,24 @@ void split_jump(Simulation& sim) {
   NodalForces& jump = sim.motion.jump;
   if (jump.x[0].empty()) return;
   Nodes vx = state.vx, vy = state.vy;
+  ModeVectors rate = state.bend_rate;
   bool any = false;
   for (std::size_t i = 0; i < blocks.size(); ++i) {
     const NodeVectors force = vectors_of(jump.x, jump.y, i);
-    if (force == NodeVectors{} || !is_free(blocks, state, i)) continue;
+    if (!is_free(blocks, state, i)) continue;
+    const BlockModes modes = blocks.modes(i);
+    for (std::size_t m = modes.first; m < modes.first + modes.count; ++m) {
+      const double per = sim.motion.masses.mode_inverse[i];
+      rate.add(m, (-0.5 * sim.control.step_before * per) * jump.modes[m]);
+      any = any || jump.modes[m] != Vec2{};
+    }
+    if (force == NodeVectors{}) continue;
     any = true;
     const NodeVectors a = accelerations(sim.motion.masses, i, force);
     add(-0.5 * sim.control.step_before * a, vx, vy, i);
   }
   jump = {};
-  if (any) change_velocities(sim, vx, vy);
+  if (any) change_velocities(sim, vx, vy, &rate);
 }
 
 }  // namespace edda

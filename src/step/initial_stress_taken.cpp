@@ -39,6 +39,7 @@ void close_contacts(Simulation& sim) {
   const LoadsNow at_start = loads_at(model, sim.attached.loads, 0.0);
   const FaceForces faces(blocks, field, at_start);
   const auto traction = [&](Id edge, double from, double to) { return faces.on(edge, {from, to}); };
+  sim.motion.locked = initial_mode_forces(blocks, field);
   sim.accounts.initial.emplace();
   // Joints that the first stage glues are checked against their own strength when they are unglued.
   const bool glued = !model.stages.empty() && model.stages.front().joints == StageJoints::glued;

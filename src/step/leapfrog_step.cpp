@@ -11,94 +11,13 @@
 #include "step/contact_search.hpp"
 #include "step/force_jumps.hpp"
 #include "step/instant.hpp"
+#include "step/leapfrog_motion.hpp"
 #include "step/load_work.hpp"
 #include "step/simulation.hpp"
 #include "step/step.hpp"
 
 namespace edda {
 namespace {
-
-/// Energy that a change of the step creates (theory, section 7.3): sum of m |v+ - v-|^2
-/// (h_old - h_new)/(4 h_mean), with the definition of work of the energy balance.
-double energy_of_step_change(const State& s, const Leap& leap) {
-  const BlockSet& b = leap.blocks;
-  const double twice = ordered_sum(b.size(), [&](std::size_t i) {
-    if (!is_free(b, s, i)) return 0.0;
-    const NodeVectors change = vectors_of(s.vx, s.vy, i) - vectors_of(leap.old_vx, leap.old_vy, i);
-    return mass_product(leap.masses, i, change, change);
-  });
-  return twice * (leap.h_old - leap.h_new) / (2.0 * (leap.h_old + leap.h_new));
-}
-
-/// Damping in force in a step of the mean length h (s), prepared for it.
-StepDamping step_damping(const Simulation& sim, double h, StrainDamping& strain,
-                         BlockKicks& kicks) {
-  const std::vector<Id>& damped = sim.attached.dashpots.damped;
-  const Masses& masses = sim.motion.masses;
-  StepDamping damping{mass_damping(sim), sim.motion.damping.local,
-                      damped.empty() ? nullptr : &damped,
-                      masses.viscosity.empty() ? nullptr : &strain};
-  if (sim.motion.damping.adaptive > 0.0) {
-    mass_damping_of_blocks(sim, kicks.mass);
-    set_kicks(kicks, h);
-    damping.kicks = &kicks;
-    if (damping.strain) prepare(strain, sim.scene->blocks, masses, kicks.h);
-  } else if (damping.strain)
-    prepare(strain, sim.scene->blocks, masses, h / (1.0 + 0.5 * damping.mass * h));
-  return damping;
-}
-
-/// The step from n to n + 1, with the state at n.
-Leap leap_of(const Simulation& sim, double h_old, double h_new) {
-  const NodalForces& forces = sim.motion.forces;
-  const LeapfrogStep& own = sim.leapfrog;
-  return {sim.scene->blocks, sim.motion.masses, forces.x, forces.y,
-          own.old_vx,        own.old_vy,        h_old,    h_new,
-          own.damps};
-}
-
-/// Forces at n, velocities at n + 1/2, positions at n + 1. Returns whether no vertex has moved
-/// beyond the displacement limit. `not_yet_gathered`: the loads at n; null where the step is made
-/// again, and of the forces only those of the dashpots, which depend on the step, are to change.
-bool move(Simulation& sim, double h_old, double h_new, const LoadsNow* not_yet_gathered) {
-  const BlockSet& blocks = sim.scene->blocks;
-  const Dashpots& dashpots = sim.attached.dashpots;
-  State& state = sim.motion.state;
-  Pose& pose = sim.motion.pose;
-  NodalForces& forces = sim.motion.forces;
-  LeapfrogStep& own = sim.leapfrog;
-  drive_ground(sim, h_old, h_new);
-  if (not_yet_gathered == nullptr) remove_dashpots(forces, sim.motion.on_dashpots, dashpots);
-  const double h = 0.5 * (h_old + h_new);
-  own.damps = step_damping(sim, h, own.strain_damping, own.kicks);
-  const DashpotStep dashpot_step{h, 0.5 * own.damps.mass * h,
-                                 own.damps.kicks ? &own.kicks.mass : nullptr, own.drive.reference,
-                                 own.drive.push};
-  const Leap leap = leap_of(sim, h_old, h_new);
-  const DashpotScene before{blocks, sim.motion.masses, state, own.old_vx, own.old_vy};
-  const BoundarySprings& springs = sim.attached.springs;
-  const Vec2 gravity = sim.scene->model.gravity;
-  const ForcesToAdd to_add{sim.motion.on_faces.x, sim.motion.on_faces.y, forces.x, forces.y};
-  own.largest.assign(blocks.size() / fewest_at_once + 1, 0.0);
-  parallel_blocks(blocks.size(), 40, [&](std::size_t c, std::size_t begin, std::size_t end) {
-    const LoadsNow* const loads = not_yet_gathered;
-    if (loads != nullptr)
-      gather_own_forces(forces, blocks, state, pose, springs, gravity, *loads, begin, end);
-    if (loads != nullptr && dashpots.points.empty()) {
-      add_and_advance(state, leap, to_add, begin, end);
-    } else {
-      if (loads != nullptr) add_to_free(blocks, state, to_add, begin, end);
-      add_dashpots(forces, sim.motion.on_dashpots, dashpots, before, dashpot_step, begin, end);
-      advance(state, leap, begin, end);
-    }
-    own.largest[c] = place_next(blocks, state.x, state.y, pose, begin, end);
-  });
-  std::swap(pose.x, pose.x1);
-  std::swap(pose.y, pose.y1);
-  sim.control.last_displacement =
-      std::sqrt(*std::max_element(own.largest.begin(), own.largest.end()));
-  return sim.control.last_displacement <= sim.scene->displacement_limit;
-}
 
 /// Work of the loads in the leapfrog's terms: f_n . (x_{n+1} - x_{n-1})/2.
 void account_loads(Simulation& sim, double h_old, double h_new, const LoadsNow& now) {
@@ -108,8 +27,11 @@ void account_loads(Simulation& sim, double h_old, double h_new, const LoadsNow& 
     return 0.5 * (h_old * vectors_of(sim.leapfrog.old_vx, sim.leapfrog.old_vy, i) +
                   h_new * vectors_of(state.vx, state.vy, i));
   };
+  const auto bent = [&](std::size_t m) {
+    return 0.5 * (h_old * sim.leapfrog.old_rate[m] + h_new * state.bend_rate[m]);
+  };
   sim.accounts.external_work +=
-      load_work(sim, now, pose.x1, pose.y1, moved) + frame_work(sim, now, moved);
+      load_work(sim, now, pose.x1, pose.y1, moved, bent) + frame_work(sim, now, moved);
 }
 
 /// Velocities half a step back from the start (theory, section 7.1), and the faces as if positions
@@ -128,7 +50,7 @@ void start_leapfrog(Simulation& sim) {
   auto look_back = [&] {
     const std::vector<double> old_x1 = pose.x1, old_y1 = pose.y1;
     for (std::size_t i = 0; i < blocks.size(); ++i) {
-      place_vertices(blocks, state.vx, state.vy, i, pose.x1, pose.y1);
+      place_vertices(blocks, state.vx, state.vy, state.bend_rate, i, pose.x1, pose.y1);
     }
     parallel_for(blocks.vertex_count(), [&](std::size_t v) {
       pose.x1[v] = pose.x[v] - h * pose.x1[v];
@@ -141,13 +63,13 @@ void start_leapfrog(Simulation& sim) {
   };
   look_back();
   gather_forces(forces, blocks, state, pose, sim.motion.on_faces, sim.attached.springs,
-                sim.scene->model.gravity, acting(sim));
+                sim.scene->model.gravity, acting(sim), sim.motion.locked);
   own.drive = dashpot_drive(sim, {}, sim.attached.free_field.columns);
   add_dashpots(forces, sim.motion.on_dashpots, sim.attached.dashpots,
                {blocks, sim.motion.masses, state, state.vx, state.vy},
                {0.0, 0.0, nullptr, own.drive.reference, own.drive.push}, 0, blocks.size());
   start_velocities(state, blocks, sim.motion.masses, forces.x, forces.y, h,
-                   sim.motion.damping.mass_damping());
+                   sim.motion.damping.mass_damping(), forces.modes);
   look_back();
   // The state of the bolts does not go back: their forces at the start do F_0 . (x_0 - x_{-1})/2
   // more work than the bolts lose.
@@ -166,16 +88,18 @@ bool move_blocks(Simulation& sim, double h_old, const LoadsNow& at_work) {
   if (own.old_vx[0].size() != sim.scene->blocks.size()) {
     own.old_vx = state.vx;
     own.old_vy = state.vy;
+    own.old_rate = state.bend_rate;
   }
   std::swap(own.old_vx, state.vx);
   std::swap(own.old_vy, state.vy);
+  std::swap(own.old_rate, state.bend_rate);
   constexpr int most_halvings = 40;
   constexpr double lost = 1e100;  // m
   const LoadsNow* not_yet_gathered = &at_work;
   for (int halvings = 0; !move(sim, h_old, state.step, not_yet_gathered); ++halvings) {
     not_yet_gathered = nullptr;
     if (control.last_displacement > lost || halvings == most_halvings) return false;
-    undo_step(state, sim.scene->blocks, state.step, own.old_vx, own.old_vy);
+    undo_step(state, sim.scene->blocks, state.step, own.old_vx, own.old_vy, own.old_rate);
     std::swap(pose.x, pose.x1);  // to the very bits of n, which the faces remember
     std::swap(pose.y, pose.y1);
     stop_ground(sim);
@@ -207,9 +131,19 @@ void switch_contacts(Simulation& sim, double h_old) {
   LeapfrogStep& own = sim.leapfrog;
   own.switching.on_fixed = {};
   if (sim.scene->model.solver.switching == Switching::exact) {
-    const StepTaken taken{sim.scene->blocks, motion.masses,    motion.state,   motion.pose,
-                          own.old_vx,        own.old_vy,       h_old,          motion.state.step,
-                          own.damps.mass,    own.damps.strain, own.damps.kicks};
+    const StepTaken taken{sim.scene->blocks,
+                          motion.masses,
+                          motion.state,
+                          motion.pose,
+                          own.old_vx,
+                          own.old_vy,
+                          h_old,
+                          motion.state.step,
+                          own.damps.mass,
+                          own.damps.strain,
+                          own.damps.kicks,
+                          &own.old_rate,
+                          sim.motion.masses.mode_damping[0].empty() ? nullptr : &own.mode_damping};
     if (own.tiled.ahead) {
       switch_in_tiles(sim, taken);
     } else {
@@ -243,7 +177,7 @@ void account_for_step(Simulation& sim, double h_old, const LoadsNow& at_work) {
   }
   accounts.steps.over_critical =
       std::max(accounts.steps.over_critical, h / sim.control.bound.critical_step);
-  account_damping(state, leap, accounts.damping_work);
+  account_damping(state, leap, accounts.damping_work, &sim.leapfrog.mode_damping);
   account_loads(sim, h_old, h, at_work);
   account_boundaries(sim, h_old, h);
 }
@@ -360,8 +294,27 @@ void look_leapfrog(const Simulation& sim, Instant& at) {
                {h, 0.5 * damping.mass * h, damping.kicks ? &kicks.mass : nullptr, drive.reference,
                 drive.push},
                0, blocks.size());
-  advance(at.state,
-          {blocks, masses, at.forces.x, at.forces.y, at.state.vx, at.state.vy, h, h, damping});
+  const bool bend = blocks.bending.any();
+  const Leap leap{blocks,
+                  masses,
+                  at.forces.x,
+                  at.forces.y,
+                  state.vx,
+                  state.vy,
+                  h,
+                  h,
+                  damping,
+                  bend ? &at.forces.modes : nullptr,
+                  bend ? &state.bend_rate : nullptr};
+  if (bend) {
+    ModeDamping modes;
+    ModeDamping* const damps = mode_damping_of(sim, modes);
+    advance_modes(at.state, leap, damps, at.forces.x, at.forces.y, 0, blocks.size());
+    for (std::size_t m = 0; m < state.bend.size(); ++m)
+      at.state.bend_rate.set(m, 0.5 * (at.state.bend_rate[m] + state.bend_rate[m]));
+    at.state.bend = state.bend;
+  }
+  advance(at.state, leap);
   at.state.x = state.x;
   at.state.y = state.y;
   Nodes &vx = at.state.vx, &vy = at.state.vy;

@@ -18,6 +18,7 @@ namespace edda {
 
 struct LeapfrogStep {
   Nodes old_vx, old_vy;    ///< v_{n-1/2}, m/s; swapped with State::vx and vy as a step begins
+  ModeVectors old_rate;    ///< the same of the modes
   GroundStep next_ground;  ///< ground at the end of the step
   Vec2 on_fixed;           ///< N at n: force_on_fixed() before the contact activation
   DashpotDrive drive;      ///< motion of the ground behind the dashpots
@@ -26,6 +27,7 @@ struct LeapfrogStep {
   FaceSwitchingScratch switching;
   TiledFaces tiled;
   StrainDamping strain_damping;
+  ModeDamping mode_damping;
   BlockKicks kicks;   ///< of adaptive damping, block by block
   StepDamping damps;  ///< damping in force in the step
 };

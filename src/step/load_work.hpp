@@ -6,20 +6,25 @@
 
 namespace edda {
 
-/// Sum of f . u over the nodes of all free blocks that carry loads, J: f of the loads with the
-/// vertices at x, y; moved(i) the displacements u of the nodes of block i in the method's
-/// definition of work, m.
-template <class Moved>
+/// Sum of f . u over the nodes and modes of all free blocks that carry loads, J: f of the loads
+/// with the vertices at x, y; moved(i) the displacements u of the nodes of block i in the method's
+/// definition of work, m, and bent(m) those of a mode.
+template <class Moved, class Bent>
 double load_work(const Simulation& sim, const LoadsNow& now, const std::vector<double>& x,
-                 const std::vector<double>& y, Moved moved) {
+                 const std::vector<double>& y, Moved moved, Bent bent) {
   if (now.loads == nullptr) return 0.0;
   const std::vector<Id>& loaded = now.loads->blocks;
   return ordered_sum(loaded.size(), [&](std::size_t q) {
     const Id i = loaded[q];
     if (!is_free(sim.scene->blocks, sim.motion.state, i)) return 0.0;
-    NodeVectors f{};
-    add_loads(f, sim.scene->blocks, now, x, y, i);
-    return dot(f, moved(i));
+    const BlockModes modes = sim.scene->blocks.modes(i);
+    ModeVectors on_modes;
+    on_modes.assign(modes.count, 0.0);
+    BlockForces f{sim.scene->blocks, i, {}, modes.count > 0 ? &on_modes : nullptr, modes.first};
+    add_loads(f, now, x, y);
+    double work = dot(f.nodes, moved(i));
+    for (std::size_t a = 0; a < modes.count; ++a) work += dot(on_modes[a], bent(modes.first + a));
+    return work;
   });
 }
 

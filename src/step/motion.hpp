@@ -24,7 +24,9 @@ struct Motion {
   NodalForces on_faces;     ///< forces of the faces at n on the blocks, N; of fixed
                             ///< ones only where the ground moves or faces are stepped by rows
   NodalForces forces;
-  NodalForces jump;  ///< jump of the forces at n since the last step (note_jump()); or empty
+  ModeVectors locked;  ///< [modes] N, in the frame of each block: forces on its modes that balance
+                       ///< the initial stress; or empty
+  NodalForces jump;    ///< jump of the forces at n since the last step (note_jump()); or empty
   std::vector<Vec2> on_dashpots;  ///< [points of dashpots] forces of the dashpots in the last step,
                                   ///< N
   Damping damping;                ///< in force

@@ -105,7 +105,8 @@ void account_loads(Simulation& sim, const LoadsNow& now) {
     return vectors_of(part_of(sim.implicit.moved, sim.implicit.row_of[i]));
   };
   sim.accounts.external_work +=
-      load_work(sim, now, pose.x, pose.y, moved) + frame_work(sim, now, moved);
+      load_work(sim, now, pose.x, pose.y, moved, [](std::size_t) { return Vec2{}; }) +
+      frame_work(sim, now, moved);
 }
 
 ImplicitSettings settings_of(const Simulation& sim) {

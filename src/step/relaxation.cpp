@@ -106,19 +106,30 @@ void look_at_block(Simulation& sim, const LoadsNow& at_work, std::size_t i, bool
   FrequencyEstimate& estimate = sim.relaxation.estimate;
   const double h = state.step;
   const Vec2 gravity = sim.scene->model.gravity - at_work.gravity_reduction();
-  NodeVectors load{};
-  if (at_work.loads != nullptr && at_work.loads->place[i] != no_id) {
-    add_loads(load, blocks, at_work, sim.motion.pose.x1, sim.motion.pose.y1, static_cast<Id>(i));
-  }
+  const BlockModes modes = blocks.modes(i);
+  ModeVectors load_on_modes;
+  load_on_modes.assign(modes.count, 0.0);
+  BlockForces load{blocks, i, {}, modes.count > 0 ? &load_on_modes : nullptr, modes.first};
+  if (at_work.loads != nullptr && at_work.loads->place[i] != no_id)
+    add_loads(load, at_work, sim.motion.pose.x1, sim.motion.pose.y1);
   // The forces are those of the positions before the step.
   const NodeVectors x = vectors_of(state.x, state.y, i) - h * vectors_of(state.vx, state.vy, i);
   const Vec2 weight = (blocks.mass[i] / nodes_per_block) * gravity;
-  const NodeVectors f = vectors_of(forces.x, forces.y, i) - at_every_node(weight) - load;
+  const NodeVectors f = vectors_of(forces.x, forces.y, i) - at_every_node(weight) - load.nodes;
   const NodeVectors dx = x - vectors_of(estimate.x, estimate.y, i),
                     df = f - vectors_of(estimate.fx, estimate.fy, i);
   for (std::size_t k = 0; counts && k < nodes_per_block; ++k) {
     sum.stiffness[i] -= dot(dx[k], df[k]);
     sum.inertia[i] += inertia_of_node(sim.motion.masses, k, i) * dot(dx[k], dx[k]);
+  }
+  for (std::size_t a = 0; a < modes.count; ++a) {
+    const std::size_t m = modes.first + a;
+    const Vec2 at = state.bend[m] - h * state.bend_rate[m], moved = at - estimate.bend[m],
+               on = forces.modes[m] - load_on_modes[a];
+    sum.stiffness[i] -= counts ? dot(moved, on - estimate.on_modes[m]) : 0.0;
+    sum.inertia[i] += counts ? dot(moved, moved) / sim.motion.masses.mode_inverse[i] : 0.0;
+    estimate.bend.set(m, at);
+    estimate.on_modes.set(m, on);
   }
   store(x, estimate.x, estimate.y, i);
   store(f, estimate.fx, estimate.fy, i);
@@ -166,6 +177,8 @@ void update_estimate(Simulation& sim, const LoadsNow& at_work) {
     for (Nodes* nodes : {&estimate.x, &estimate.y, &estimate.fx, &estimate.fy}) {
       *nodes = zero_nodes(nb);
     }
+    for (ModeVectors* modes : {&estimate.bend, &estimate.on_modes})
+      modes->assign(sim.scene->blocks.bending.modes(), 0.0);
   }
   const std::vector<std::uint8_t> touch = touching(sim);
   const std::vector<std::uint8_t> stays = counts_in_frequency(sim, touch);

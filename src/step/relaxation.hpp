@@ -23,6 +23,7 @@ struct FrequencyEstimate {
   std::uint64_t since = 0;       ///< step at which the following were recorded
   Nodes x, y;                    ///< [nodes][nb] positions then, m; empty: none yet
   Nodes fx, fy;                  ///< [nodes][nb] forces then, N
+  ModeVectors bend, on_modes;    ///< [modes] the same of the modes
 
   /// Frequency by which gradual changes proceed, 1/s: blocks that slide away lower the frequency,
   /// but do not stop these.

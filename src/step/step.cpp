@@ -52,7 +52,7 @@ void observe(const Simulation& sim, Instant& at) {
   at.state = motion.state;
   at.forces = motion.forces;
   gather_forces(at.forces, sim.scene->blocks, motion.state, motion.pose, motion.on_faces,
-                sim.attached.springs, sim.scene->model.gravity, acting(sim));
+                sim.attached.springs, sim.scene->model.gravity, acting(sim), motion.locked);
   sim.stepper->look(sim, at);
 }
 

@@ -38,7 +38,7 @@ SweepScene sweep_scene(const Simulation& sim) {
 SweepResult sweep(Simulation& sim, std::size_t tile, bool keep, SweepScratch& scratch) {
   TiledFaces& own = sim.leapfrog.tiled;
   return sweep_tile(own.tiles, sweep_scene(sim), tile, keep, scratch, sim.motion.on_faces.x,
-                    sim.motion.on_faces.y);
+                    sim.motion.on_faces.y, sim.motion.on_faces.modes);
 }
 
 /// Whether a face in a chunk that rests may go on, although blocks have been pushed so far (m).
@@ -197,7 +197,8 @@ void gather(Simulation& sim, const std::vector<Id>& faces) {
   std::vector<char> no_scratch;
   parallel_tasks(in_tile.size(), 80 * faces.size(), no_scratch, [&](std::size_t tile, char&) {
     if (in_tile[tile] == 0 || own.tiles.kept[tile] == 0) return;
-    gather_tile(own.tiles, b, tile, wanted, sim.motion.on_faces.x, sim.motion.on_faces.y);
+    gather_tile(own.tiles, b, tile, wanted, sim.motion.on_faces.x, sim.motion.on_faces.y,
+                sim.motion.on_faces.modes);
   });
   mark(0);
 }

@@ -20,7 +20,7 @@ void exchange_velocity_arrays(Simulation& sim) {
   std::swap(own.old_vy, state.vy);
 }
 
-void change_velocities(Simulation& sim, const Nodes& vx, const Nodes& vy) {
+void change_velocities(Simulation& sim, const Nodes& vx, const Nodes& vy, const ModeVectors* rate) {
   const BlockSet& blocks = sim.scene->blocks;
   State& state = sim.motion.state;
   Pose& pose = sim.motion.pose;
@@ -39,6 +39,7 @@ void change_velocities(Simulation& sim, const Nodes& vx, const Nodes& vy) {
   for (std::size_t i = 0; i < blocks.size(); ++i) {
     if (is_free(blocks, state, i)) store(vectors_of(vx, vy, i), state.vx, state.vy, i);
   }
+  if (rate != nullptr) state.bend_rate = *rate;
   if (leaps) {
     place_a_step_back(blocks, state, state.vx, state.vy, control.step_before, pose);
     correct_last_step(contacts, blocks, pose, old_x1, old_y1);

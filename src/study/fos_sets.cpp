@@ -33,9 +33,10 @@ Simulation at_start(const Simulation& rest, const Simulation& later) {
   Simulation start = rest;
   start.motion.state.x = later.motion.state.from_x;
   start.motion.state.y = later.motion.state.from_y;
+  start.motion.state.bend = later.motion.state.from_bend;
   for (std::size_t i = 0; i < start.scene->blocks.size(); ++i) {
-    place_vertices(start.scene->blocks, start.motion.state.x, start.motion.state.y, i,
-                   start.motion.pose.x, start.motion.pose.y);
+    place_vertices(start.scene->blocks, start.motion.state.x, start.motion.state.y,
+                   start.motion.state.bend, i, start.motion.pose.x, start.motion.pose.y);
   }
   return start;
 }

@@ -158,6 +158,7 @@ class Run {
     State& state = sim_.motion.state;
     found->moved.motion.state.from_x = state.x;
     found->moved.motion.state.from_y = state.y;
+    found->moved.motion.state.from_bend = state.bend;
     state = std::move(found->moved.motion.state);
     sim_.motion.pose = std::move(found->moved.motion.pose);
     trial_.proof = std::move(found->mechanism);

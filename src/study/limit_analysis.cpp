@@ -309,7 +309,9 @@ const char* const initial_stress_left_out =
     "equilibrium best, so the limit is too high where the stress of the ground alone holds blocks; "
     "edda fos takes it in";
 
-Result<LimitResult> limit_analysis(const Model& model, const LimitOptions& options) {
+Result<LimitResult> limit_analysis(const Model& given, const LimitOptions& options) {
+  Model model = given;
+  model.deformation = BlockDeformation::uniform;  // rigid blocks need no nodes within their edges
   const auto began = std::chrono::steady_clock::now();
   const Fos fos = model.fos.value_or(Fos{});
   if (auto fault = without_limit(model, fos)) return *fault;

@@ -22,7 +22,7 @@ Simulation moved_by(const Simulation& drawn, const RigidBlocks& rigid,
         of_node = rigid.centroid[r] + far * motion[r].velocity + c * arm + s * perp(arm);
       }
       store(x, state.x, state.y, i);
-      place_vertices(moved.scene->blocks, state.x, state.y, i, moved.motion.pose.x,
+      place_vertices(moved.scene->blocks, state.x, state.y, state.bend, i, moved.motion.pose.x,
                      moved.motion.pose.y);
     }
   }

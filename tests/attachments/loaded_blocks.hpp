@@ -31,8 +31,9 @@ struct Loaded : test::DrawnBlocks {
   };
   Resultant on(std::size_t i, const std::vector<double>& x, const std::vector<double>& y,
                double time = 0.0) const {
-    std::array<Vec2, 3> f{};
-    add_loads(f, blocks, loads_at(model, loads, time), x, y, i);
+    BlockForces all{blocks, i};
+    add_loads(all, loads_at(model, loads, time), x, y);
+    const NodeVectors& f = all.nodes;
     // Nodes move with the vertices: as the block is drawn here it is not deformed.
     Resultant r{f[0] + f[1] + f[2], 0.0};
     for (std::size_t k = 0; k < 3; ++k) {

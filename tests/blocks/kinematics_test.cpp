@@ -80,7 +80,11 @@ TEST(Kinematics, VerticesAreWhereTheirWeightsSay) {
     Nodes x = zero_nodes(1), y = x;
     store(nodes_of(b) + affine(b), x, y, 0);
     Pose pose{b.vertex_x, b.vertex_y, b.vertex_x, b.vertex_y};
-    const double farthest = place_next(b, x, y, pose, 0, 1);
+    State state;
+    state.x = x;
+    state.y = y;
+    state.bend.assign(b.bending.modes(), 0.0);
+    const double farthest = place_next(b, state, pose, 0, 1);
     double expected = 0.0;
     for (Id v = 0; v < 4; ++v) {
       EXPECT_EQ(b.weight[0][v], 1.0 - b.weight[1][v] - b.weight[2][v]);

@@ -133,9 +133,11 @@ struct Drift {
                      .least_margin = least_margin,
                      .step = 1e-3,
                      .corrects = false};
+    ModeVectors on_modes;
+    on_modes.assign(heap.blocks.bending.modes(), 0.0);
     const auto sweep = [&] {
       for (std::size_t q = 0; q < t.tiles.size(); ++q)
-        sweep_tile(t, scene, q, false, scratch, fx, fy);
+        sweep_tile(t, scene, q, false, scratch, fx, fy, on_modes);
     };
     sweep();
     take_decisions(t, own);

@@ -9,6 +9,7 @@ namespace edda::testing {
 inline const std::string every_key = R"(title = "Every \"key\"\t\\ é"
 gravity = ["1 m/s2", -9.8]
 plane = "stress"
+deformation = "corners"
 thickness = "50 cm"
 [materials.rock]
 density = 2750

@@ -155,5 +155,20 @@ TEST(Locking, IsWarnedOfWhereItBends) {
   EXPECT_FALSE(warned(tunnel("0 60 120", 1.3, 3.0, "")));
 }
 
+/// Blocks that bend lock nothing, but may be too coarse for an opening.
+TEST(Locking, OfBlocksThatBendIsOfTheirSizeAlone) {
+  const auto lost = [](double spacing, double radius, const std::string& joint) {
+    const PreparedRun run =
+        prepared("deformation = \"corners\"\n" + tunnel("0 90", spacing, radius, joint));
+    return locked_openings(run.sim).at(0);
+  };
+  EXPECT_EQ(lost(1.0, 3.0, "").lost, 0.0);
+  EXPECT_EQ(lost(1.0, 3.0, "kn = 1e12\nks = 1e12\n").lost, 0.0);
+  EXPECT_LT(lost(1.5, 3.0, "").lost, 0.01);
+  EXPECT_NEAR(lost(2.0, 3.0, "").lost, 0.08, 0.02);
+  EXPECT_NEAR(lost(3.0, 3.0, "").lost, 0.09, 0.02);
+  EXPECT_TRUE(lost(1.0, 3.0, "").bends);
+}
+
 }  // namespace
 }  // namespace edda::locking_test

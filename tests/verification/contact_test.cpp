@@ -145,6 +145,12 @@ Momentum momentum(const Simulation& s) {
       m.scale += mass * norm(v);
       m.angular_scale += mass * norm(x) * norm(v);
     }
+    const BlockModes modes = s.scene->blocks.modes(i);
+    for (std::size_t a = modes.first; a < modes.first + modes.count; ++a) {
+      const Vec2 v = s.motion.state.bend_rate[a];
+      const Vec2 q = s.motion.state.bend[a] - 0.5 * s.motion.state.step * v;
+      m.angular += cross(q, v) / s.motion.masses.mode_inverse[i];
+    }
   }
   return m;
 }

@@ -19,6 +19,7 @@ constexpr std::array root_keys{
     Key{"title", at<&Model::title>, text, initial, "Title of pictures and tables."},
     Key{"gravity", at<&Model::gravity>, shape(Kind::point, D::acceleration), initial, "Acceleration of gravity, x and y."},
     Key{"plane", at<&Model::plane>, choice, initial, "Plane strain, or plane stress (a thin plate)."},
+    Key{"deformation", at<&Model::deformation>, choice, initial, "How blocks deform. Uniform: each has one strain. Corners: the corners of a block deviate from it, so that the block bends (method edda, contacts that are faces); a triangle has one strain in any case. The dashpots of joints.restitution are fitted to uniform blocks."},
     Key{"thickness", at<&Model::thickness>, number(D::length, above(0)), initial, "Thickness out of plane for which forces and masses are given."},
 };
 

@@ -1,0 +1,183 @@
+#include "cutting/t_nodes.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <unordered_map>
+#include <vector>
+
+namespace edda {
+namespace {
+
+struct Corner {
+  Vec2 at;
+  std::size_t block;
+};
+
+/// The corners of all blocks, in square cells.
+class Cells {
+ public:
+  explicit Cells(const PolygonSet& set) {
+    double length = 0.0;
+    std::size_t edges = 0;
+    for (const BlockPolygon& block : set.blocks) {
+      for (const Ring& ring : block.rings) {
+        for (std::size_t v = 0; v < ring.size(); ++v, ++edges)
+          length += norm(ring[(v + 1) % ring.size()] - ring[v]);
+      }
+    }
+    size_ = edges > 0 ? length / static_cast<double>(edges) : 1.0;
+    for (std::size_t i = 0; i < set.blocks.size(); ++i) {
+      for (const Ring& ring : set.blocks[i].rings) {
+        for (const Vec2 p : ring) corners_[key(index(p.x), index(p.y))].push_back({p, i});
+      }
+    }
+  }
+
+  /// Calls body(corner) for those in the cells along the edge from a to b.
+  template <class Body>
+  void along(Vec2 a, Vec2 b, double tolerance, Body body) const {
+    const auto columns = span(a.x, b.x, tolerance);
+    for (std::int64_t x = columns.first; x <= columns.second; ++x) {
+      const auto rows = rows_of(a, b, x, tolerance);
+      for (std::int64_t y = rows.first; y <= rows.second; ++y) {
+        const auto found = corners_.find(key(x, y));
+        if (found == corners_.end()) continue;
+        for (const Corner& c : found->second) body(c);
+      }
+    }
+  }
+
+ private:
+  using Range = std::pair<std::int64_t, std::int64_t>;
+  std::int64_t index(double x) const { return static_cast<std::int64_t>(std::floor(x / size_)); }
+  static std::uint64_t key(std::int64_t x, std::int64_t y) {
+    return (static_cast<std::uint64_t>(x) << 32) ^ (static_cast<std::uint64_t>(y) & 0xffffffffu);
+  }
+  Range span(double p, double q, double more) const {
+    return {index(std::min(p, q) - more), index(std::max(p, q) + more)};
+  }
+  /// The rows through which the edge passes in column x.
+  Range rows_of(Vec2 a, Vec2 b, std::int64_t x, double more) const {
+    if (std::abs(b.x - a.x) <= size_) return span(a.y, b.y, more);
+    const auto y_at = [&](double at) {
+      return a.y + std::clamp((at - a.x) / (b.x - a.x), 0.0, 1.0) * (b.y - a.y);
+    };
+    const double left = static_cast<double>(x) * size_ - more;
+    return span(y_at(left), y_at(left + size_ + 2.0 * more), more);
+  }
+
+  double size_;
+  std::unordered_map<std::uint64_t, std::vector<Corner>> corners_;
+};
+
+/// A corner of a neighbour within an edge, by its fraction of the way.
+struct Node {
+  double fraction;
+  Vec2 at;
+};
+
+/// Those of the edge from a to b of block i, in order.
+std::vector<Node> nodes_within(const Cells& cells, Vec2 a, Vec2 b, std::size_t i,
+                               double tolerance) {
+  const Vec2 along = b - a;
+  const double square = dot(along, along);
+  std::vector<Node> nodes;
+  cells.along(a, b, tolerance, [&](const Corner& c) {
+    if (c.block == i) return;
+    const double fraction = dot(c.at - a, along) / square;
+    if (std::abs(cross(c.at - a, along)) > tolerance * std::sqrt(square)) return;
+    nodes.push_back({fraction, c.at});
+  });
+  std::sort(nodes.begin(), nodes.end(),
+            [](const Node& p, const Node& q) { return p.fraction < q.fraction; });
+  return nodes;
+}
+
+constexpr double shortest =
+    0.05;  // of an edge: the motion of a shorter piece is that of its corner
+
+/// The edges of a block, ring after ring, and the nodes within each.
+struct Edge {
+  Vec2 from, to;
+  std::vector<Node> nodes;
+
+  /// Adds it unless another or an end is nearer than `apart`, a fraction of the edge.
+  void add(const Node& node, double apart = shortest) {
+    if (node.fraction < apart || node.fraction > 1.0 - apart) return;
+    const auto after = std::find_if(nodes.begin(), nodes.end(), [&](const Node& other) {
+      return other.fraction > node.fraction - apart;
+    });
+    if (after != nodes.end() && after->fraction < node.fraction + apart) return;
+    nodes.insert(after, node);
+  }
+};
+
+/// How thick the block is at p, a point of one of its edges, across that edge, m; infinite if no
+/// other edge lies there.
+double thickness_at(const std::vector<Edge>& edges, const Edge& own, Vec2 p) {
+  const Vec2 inward = perp(unit(own.to - own.from));
+  double least = std::numeric_limits<double>::infinity();
+  for (const Edge& e : edges) {
+    const Vec2 along = e.to - e.from;
+    const double turn = cross(inward, along);
+    if (&e == &own || turn == 0.0) continue;
+    const double distance = cross(e.from - p, along) / turn,
+                 fraction = cross(e.from - p, inward) / turn;
+    if (distance > 0.0 && fraction >= 0.0 && fraction <= 1.0) least = std::min(least, distance);
+  }
+  return least;
+}
+
+/// A long block bends between its nodes, as far as these tell, and is held at them alone, even if a
+/// face or a boundary supports it all along. So edges that are longer than the block is thick are
+/// divided into pieces of about its thickness, with the nodes that they have already.
+void divide_long_edges(std::vector<Edge>& edges) {
+  constexpr double long_from = 1.5;  // of the thickness
+  constexpr int most = 10;           // pieces
+  for (Edge& e : edges) {
+    const Vec2 along = e.to - e.from;
+    const double ratio = norm(along) / thickness_at(edges, e, e.from + 0.5 * along);
+    if (!(ratio > long_from)) continue;
+    const int pieces = static_cast<int>(std::min<double>(most, std::max(2.0, std::round(ratio))));
+    for (int k = 1; k < pieces; ++k) {
+      const double fraction = static_cast<double>(k) / pieces;
+      e.add({fraction, e.from + fraction * along}, 0.5 / pieces);
+    }
+  }
+}
+
+}  // namespace
+
+void add_t_nodes(PolygonSet& set, double tolerance, const std::function<bool(std::size_t)>& bends) {
+  const Cells cells(set);
+  for (std::size_t i = 0; i < set.blocks.size(); ++i) {
+    if (!bends(i)) continue;
+    BlockPolygon& block = set.blocks[i];
+    std::vector<Edge> edges;
+    for (const Ring& ring : block.rings) {
+      for (std::size_t v = 0; v < ring.size(); ++v) {
+        edges.push_back({ring[v], ring[(v + 1) % ring.size()], {}});
+        for (const Node& node :
+             nodes_within(cells, edges.back().from, edges.back().to, i, tolerance))
+          edges.back().add(node);
+      }
+    }
+    divide_long_edges(edges);
+    auto edge = edges.begin();
+    for (std::size_t r = 0; r < block.rings.size(); ++r) {
+      Ring ring;
+      std::vector<Index> joint;
+      for (const Index law : block.joint[r]) {
+        ring.push_back(edge->from);
+        for (const Node& node : edge->nodes) ring.push_back(node.at);
+        joint.insert(joint.end(), 1 + edge->nodes.size(), law);
+        ++edge;
+      }
+      block.rings[r] = std::move(ring);
+      block.joint[r] = std::move(joint);
+    }
+  }
+}
+
+}  // namespace edda

@@ -1,0 +1,55 @@
+// The step of the modes of blocks that bend, and their damping (theory, sections 3.4 and 9.2).
+//
+// Each mode moves as a node of the mass m does (leapfrog.hpp). Its strain damping is implicit, as
+// that of the nodes: with p = R^T (v - w J q), the rate of its amplitude as seen from the block,
+//  p+ = (1 + h C)^-1 p*,  C = 2 zeta w_b along the bendings e_b, and 2 zeta w of the rest beside
+//  them,
+// so that a block that rotates is not damped. The couple that goes with the force -m C p+ acts on
+// the nodes in the same step: the damping has no moment.
+#pragma once
+
+#include <vector>
+
+#include "blocks/bent_state.hpp"
+#include "blocks/masses.hpp"
+#include "integrate/kick.hpp"
+
+namespace edda {
+
+/// What the damping of the modes did in the last step.
+struct ModeDamping {
+  ModeVectors force;           ///< [modes] force on them, N
+  std::vector<double> couple;  ///< [nb] that on the nodes (bent_state.hpp), N m
+};
+
+/// A step from n to n + 1 of the modes.
+struct ModeLeap {
+  const BlockSet& blocks;
+  const Masses& masses;
+  const ModeVectors& force;      ///< [modes] at n, N
+  const ModeVectors& old_rate;   ///< [modes] v_{n-1/2}, m/s
+  const Nodes &old_vx, &old_vy;  ///< [nodes][nb] of the nodes, m/s
+  ModeDamping* damping;          ///< null: none is damped
+};
+
+/// v_{n+1/2} of the modes of block i, their positions at n + 1, and the couple of the damping,
+/// which is added to the forces fx, fy on its nodes. The nodes must still be at n.
+void advance_modes(State& state, const ModeLeap& leap, const Kick& kick, std::size_t i, Nodes& fx,
+                   Nodes& fy);
+
+/// Takes the couple of the last step back from the forces on the nodes, which must be at n.
+void take_back_couples(const ModeDamping& damping, const BlockSet& blocks, const State& state,
+                       Nodes& fx, Nodes& fy, std::size_t begin, std::size_t end);
+
+/// Changes v_{n+1/2} of the modes of block i by what additional forces on them in the step do.
+/// before: how the block stood at n. Returns the additional couple on its nodes, N m.
+double push_modes(State& state, const ModeLeap& leap, const Kick& kick, const Rotation& before,
+                  const ModesOfBlock& force, std::size_t i);
+
+/// What the damping of the modes of block i has dissipated over (x_{n+1} - x_{n-1})/2, J: by_nodes
+/// of its nodes (m), and the velocities of the modes before and after n.
+double mode_dissipation(const ModeDamping& damping, const ModeLeap& leap, const State& state,
+                        double h_old, double h_new, const Rotation& at_n,
+                        const NodeVectors& by_nodes, std::size_t i);
+
+}  // namespace edda

@@ -1,0 +1,260 @@
+// The modes of blocks that bend: what their shapes leave to the nodes, and what they store.
+#include "blocks/bending.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "attachments/drawn_blocks.hpp"
+#include "base/polygon.hpp"
+#include "blocks/bent_state.hpp"
+
+namespace edda::bending_test {
+namespace {
+
+using test::DrawnBlocks;
+
+struct Shape {
+  const char* name;
+  Ring ring;
+};
+
+const std::vector<Shape>& shapes() {
+  static const std::vector<Shape> all{
+      {"square", {{0, 0}, {1, 0}, {1, 1}, {0, 1}}},
+      {"4 to 1", {{0, 0}, {4, 0}, {4, 1}, {0, 1}}},
+      {"rhomb", {{0, 0}, {1, 0.2}, {1.6, 1.1}, {0.6, 0.9}}},
+      {"trapezoid", {{0, 0}, {2, 0}, {1.5, 1}, {0.4, 1}}},
+      {"pentagon", {{0, 0}, {1.2, -0.1}, {1.7, 0.8}, {0.6, 1.5}, {-0.3, 0.7}}},
+      {"brick with nodes", {{0, 0}, {1, 0}, {2, 0}, {2, 1}, {1, 1}, {0, 1}}},
+      {"reentrant", {{0, 0}, {2, 0}, {2, 1}, {1, 1}, {1, 2}, {0, 2}}},
+  };
+  return all;
+}
+
+struct OneBlock : DrawnBlocks {
+  State state;
+  Moments m;
+  explicit OneBlock(const Ring& ring) {
+    model.deformation = BlockDeformation::corners;
+    add(ring);
+    build_all();
+    state = initial_state(blocks, set);
+    m = moments(set.blocks[0].rings);
+  }
+  std::size_t corners() const { return blocks.vertex_count(); }
+  BlockModes modes() const { return blocks.modes(0); }
+  Vec2 arm(std::size_t v) const { return blocks.vertex(v) - m.centroid; }
+  /// E' t of the rock, and nu'.
+  double modulus() const { return 1e9 / (1.0 - 0.2 * 0.2); }
+  static constexpr double ratio = 0.2 / (1.0 - 0.2);
+  /// mu_v by its definition.
+  double part(std::size_t v) const {
+    double perimeter = 0.0;
+    for (const double l : blocks.edge_length) perimeter += l;
+    const double here =
+        0.5 * (blocks.edge_length[v] + blocks.edge_length[blocks.previous[v]]) / perimeter;
+    return 0.5 + 0.5 * static_cast<double>(corners()) * here;
+  }
+  /// The modes of a displacement of the corners that is given in the block's frame.
+  void bend(const std::vector<Vec2>& u) {
+    for (std::size_t a = 0; a < modes().count; ++a) {
+      Vec2 sum;
+      for (std::size_t v = 0; v < corners(); ++v) sum += (part(v) * modes().of(a, v)) * u[v];
+      state.bend.set(a, sum);
+    }
+  }
+  double stored() const {
+    const BentState q =
+        bent_state(blocks, state.bend, rotation(deformation(blocks, state.x, state.y, 0)), 0);
+    const ModesOfBlock g = elastic_stress(blocks, q, 0);
+    double twice = 0.0;
+    for (std::size_t a = 0; a < q.modes.count; ++a) twice += dot(q.s[a], g[a]);
+    return 0.5 * twice;
+  }
+};
+
+TEST(Bending, BlocksHaveThreeModesFewerThanCorners) {
+  EXPECT_EQ(OneBlock({{0, 0}, {1, 0}, {0, 1}}).modes().count, 0u);
+  EXPECT_EQ(OneBlock({{0, 0}, {1, 0}, {1, 1}, {0, 1}}).modes().count, 1u);
+  for (const Shape& s : shapes()) {
+    const OneBlock o(s.ring);
+    EXPECT_EQ(o.modes().count, o.corners() - 3) << s.name;
+  }
+}
+
+TEST(Bending, FixedAndUniformBlocksHaveNone) {
+  DrawnBlocks blocks;
+  blocks.model.deformation = BlockDeformation::corners;
+  blocks.add({{0, 0}, {1, 0}, {1, 1}, {0, 1}}, true);
+  blocks.build_all();
+  EXPECT_FALSE(blocks.blocks.bending.any());
+  for (auto change : {+[](Model& m) { m.deformation = BlockDeformation::uniform; },
+                      +[](Model& m) { m.solver.method = Method::dda; },
+                      +[](Model& m) { m.contact.model = ContactModel::points; }}) {
+    DrawnBlocks uniform;
+    uniform.model.deformation = BlockDeformation::corners;
+    change(uniform.model);
+    uniform.add({{0, 0}, {1, 0}, {1, 1}, {0, 1}});
+    uniform.build_all();
+    EXPECT_FALSE(uniform.blocks.bending.any());
+  }
+}
+
+/// No mode moves the centre, strains the mean, or is another in disguise.
+TEST(Bending, ShapesContainNoAffineMotion) {
+  for (const Shape& s : shapes()) {
+    const OneBlock o(s.ring);
+    for (std::size_t a = 0; a < o.modes().count; ++a) {
+      double sum = 0.0;
+      Vec2 gradient;
+      for (std::size_t v = 0; v < o.corners(); ++v) {
+        const double h = o.modes().of(a, v);
+        const Vec2 after = o.blocks.vertex(o.blocks.next[v]),
+                   before = o.blocks.vertex(o.blocks.previous[v]);
+        sum += o.part(v) * h;
+        gradient += h * Vec2{after.y - before.y, before.x - after.x};
+      }
+      EXPECT_NEAR(sum, 0.0, 1e-13) << s.name;
+      EXPECT_NEAR(norm(gradient), 0.0, 1e-13) << s.name;
+      for (std::size_t b = 0; b < o.modes().count; ++b) {
+        double product = 0.0;
+        for (std::size_t v = 0; v < o.corners(); ++v)
+          product += o.part(v) * o.modes().of(a, v) * o.modes().of(b, v);
+        EXPECT_NEAR(product, a == b ? 1.0 : 0.0, 1e-12) << s.name;
+      }
+    }
+  }
+}
+
+/// A uniform traction on all edges bends nothing.
+TEST(Bending, UniformStressDoesNotBend) {
+  for (const Shape& s : shapes()) {
+    const OneBlock o(s.ring);
+    ModeVectors on;
+    on.assign(o.modes().count, 0.0);
+    for (Id v = 0; v < o.corners(); ++v) {
+      const Vec2 u = o.blocks.vertex(o.blocks.next[v]) - o.blocks.vertex(v);
+      const Vec2 n = outward_normal(u), f = 0.5 * Vec2{3.0 * n.x + 2.0 * n.y, 2.0 * n.x - n.y};
+      o.modes().spread(on, v, f);
+      o.modes().spread(on, o.blocks.next[v], f);
+    }
+    for (std::size_t a = 0; a < o.modes().count; ++a)
+      EXPECT_NEAR(norm(on[a]), 0.0, 1e-12) << s.name;
+  }
+}
+
+/// The modes of pure bending with the curvatures c about the axes across and along `axis`: stress
+/// along the axis that is linear across it, and the other way round.
+void bend_purely(OneBlock& o, Vec2 axis, Vec2 c) {
+  const Vec2 across = perp(axis);
+  std::vector<Vec2> u;
+  for (std::size_t v = 0; v < o.corners(); ++v) {
+    const double xi = dot(o.arm(v), axis), eta = dot(o.arm(v), across), nu = OneBlock::ratio;
+    u.push_back((-c.x * xi * eta + 0.5 * c.y * (eta * eta + nu * xi * xi)) * axis +
+                (0.5 * c.x * (xi * xi + nu * eta * eta) - c.y * xi * eta) * across);
+  }
+  // Their affine part is the nodes'.
+  Vec2 by_x, by_y, mean;
+  for (std::size_t v = 0; v < o.corners(); ++v) {
+    const Vec2 n = o.blocks.vertex(o.blocks.next[v]) - o.blocks.vertex(o.blocks.previous[v]);
+    by_x += (0.5 * n.y / o.m.area) * u[v];
+    by_y += (-0.5 * n.x / o.m.area) * u[v];
+  }
+  for (std::size_t v = 0; v < o.corners(); ++v) {
+    u[v] -= o.arm(v).x * by_x + o.arm(v).y * by_y;
+    mean += (o.part(v) / static_cast<double>(o.corners())) * u[v];
+  }
+  for (Vec2& at : u) at -= mean;
+  o.bend(u);
+}
+
+/// A beam bends with E' Int y^2 dA.
+TEST(Bending, OfABeamIsExact) {
+  for (const double length : {1.0, 2.0, 4.0, 10.0}) {
+    for (const bool with_nodes : {false, true}) {
+      Ring ring{{0, 0}, {length, 0}, {length, 1}, {0, 1}};
+      if (with_nodes) ring = {{0, 0}, {0.4 * length, 0}, {length, 0}, {length, 1}, {0, 1}};
+      OneBlock o(ring);
+      bend_purely(o, {1, 0}, {1e-3, 0.0});
+      const double exact = 0.5 * o.modulus() * 1e-6 * length / 12.0;
+      EXPECT_NEAR(o.stored(), exact, (with_nodes ? 0.05 : 1e-9) * exact) << length;
+    }
+  }
+}
+
+/// Of all stresses that move the corners alike the modes store what the one of least energy does:
+/// no more than pure bending.
+TEST(Bending, StoresNoMoreThanPureBending) {
+  for (const Shape& s : shapes()) {
+    OneBlock o(s.ring);
+    for (int k = 0; k < 12; ++k) {
+      const double angle = std::numbers::pi * k / 12.0;
+      const Vec2 axis{std::cos(angle), std::sin(angle)}, across = perp(axis);
+      const auto moment = [&](Vec2 d, Vec2 e) {
+        return d.x * e.x * o.m.sxx + (d.x * e.y + d.y * e.x) * o.m.sxy + d.y * e.y * o.m.syy;
+      };
+      bend_purely(o, axis, {1e-3, 0.0});
+      const double exact = 0.5 * o.modulus() * 1e-6 * moment(across, across);
+      EXPECT_LT(o.stored(), exact * (1.0 + 1e-9)) << s.name;
+    }
+  }
+}
+
+/// kappa of a square is E'/3 in both directions of its one mode.
+TEST(Bending, OfASquareIsAThirdOfTheModulus) {
+  const OneBlock o({{0, 0}, {1, 0}, {1, 1}, {0, 1}});
+  for (std::size_t k = 0; k < 2; ++k)
+    EXPECT_NEAR(o.blocks.bending.kappa[k][0], o.modulus() / 3.0, 1e-6 * o.modulus());
+}
+
+/// What a bent block stores does not depend on how it is turned or drawn.
+TEST(Bending, IsTheSameForATurnedAndForAMirroredBlock) {
+  for (const Shape& s : shapes()) {
+    OneBlock o(s.ring);
+    std::vector<Vec2> u;
+    for (std::size_t v = 0; v < o.corners(); ++v)
+      u.push_back({1e-3 * std::sin(3.0 * static_cast<double>(v)),
+                   1e-3 * std::cos(5.0 * static_cast<double>(v))});
+    o.bend(u);
+    const double c = std::cos(0.7), w = std::sin(0.7);
+    Ring turned, mirrored;
+    std::vector<Vec2> by_turn, by_mirror;
+    const auto turn = [&](Vec2 p) { return Vec2{c * p.x - w * p.y, w * p.x + c * p.y}; };
+    for (std::size_t v = 0; v < o.corners(); ++v) {
+      turned.push_back(turn(s.ring[v]));
+      by_turn.push_back(turn(u[v]));
+      const std::size_t back = o.corners() - 1 - v;
+      mirrored.push_back({-s.ring[back].x, s.ring[back].y});
+      by_mirror.push_back({-u[back].x, u[back].y});
+    }
+    OneBlock a(turned), b(mirrored);
+    a.bend(by_turn);
+    b.bend(by_mirror);
+    EXPECT_NEAR(a.stored(), o.stored(), 1e-9 * o.stored()) << s.name;
+    EXPECT_NEAR(b.stored(), o.stored(), 1e-9 * o.stored()) << s.name;
+  }
+}
+
+/// A side that bends by itself stores about what a half-plane of the same wave does: E' k/8 of the
+/// square of its amplitude per length, k its wave number; less where few corners draw the wave.
+TEST(Bending, ACorrugatedBoundaryIsAsStiffAsAHalfPlane) {
+  Ring ring;
+  constexpr int n = 24;
+  for (int v = 0; v < n; ++v)
+    ring.push_back(
+        {std::cos(2.0 * std::numbers::pi * v / n), std::sin(2.0 * std::numbers::pi * v / n)});
+  OneBlock o(ring);
+  for (const int waves : {4, 6, 8}) {
+    std::vector<Vec2> u;
+    for (int v = 0; v < n; ++v)
+      u.push_back({1e-3 * std::cos(2.0 * std::numbers::pi * waves * v / n), 0.0});
+    o.bend(u);
+    const double exact = 0.125 * o.modulus() * waves * 2.0 * std::numbers::pi * 1e-6;
+    EXPECT_GT(o.stored(), (waves == 4 ? 0.8 : 0.6) * exact) << waves;
+    EXPECT_LT(o.stored(), exact) << waves;
+  }
+}
+
+}  // namespace
+}  // namespace edda::bending_test
