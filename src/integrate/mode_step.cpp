@@ -21,6 +21,24 @@ double spin_of(const BlockSet& b, const Rotation& r, const NodeVectors& v, std::
   return (r.c * (l.yx - l.xy) - r.s * (l.xx + l.yy)) * r.inverse;
 }
 
+/// Damps the rates p of the modes of block i, as seen from it, where they are at q(a) at n: leaves
+/// what that changes, in space, in place of p, adds its forces, and returns the couple that goes
+/// with them.
+template <class Amplitudes>
+double damp(const ModeLeap& leap, const Kick& kick, const Rotation& r, std::size_t i,
+            const Amplitudes& q, ModesOfBlock& p) {
+  const BlockModes modes = leap.blocks.modes(i);
+  decay(leap.blocks, leap.masses, modes, kick.h, i, p);
+  const double to_force = 1.0 / (leap.masses.mode_inverse[i] * kick.h);
+  double couple = 0.0;
+  for (std::size_t a = 0; a < modes.count; ++a) {
+    p[a] = turned(r, p[a]);
+    leap.damping->force.add(modes.first + a, to_force * p[a]);
+    couple -= to_force * cross(p[a], q(a));
+  }
+  return couple;
+}
+
 bool is_damped(const ModeLeap& leap) {
   return leap.damping != nullptr && !leap.masses.mode_damping[0].empty();
 }
@@ -42,19 +60,12 @@ void advance_modes(State& s, const ModeLeap& leap, const Kick& kick, std::size_t
     for (std::size_t a = 0; a < modes.count; ++a) {
       const std::size_t m = modes.first + a;
       p[a] = turned_back(r, s.bend_rate[m] - spin * perp(s.bend[m]));
+      d.force.set(m, {});
     }
-    decay(b, leap.masses, modes, kick.h, i, p);
-    const double to_force = 1.0 / (per_mass * kick.h);
-    double couple = 0.0;
-    for (std::size_t a = 0; a < modes.count; ++a) {
-      const std::size_t m = modes.first + a;
-      const Vec2 change = turned(r, p[a]);
-      s.bend_rate.add(m, change);
-      d.force.set(m, to_force * change);
-      couple -= to_force * cross(change, s.bend[m]);
-    }
-    d.couple[i] = couple;
-    add(couple_on_nodes(b, r, couple, i), fx, fy, i);
+    d.couple[i] = damp(
+        leap, kick, r, i, [&](std::size_t a) { return s.bend[modes.first + a]; }, p);
+    for (std::size_t a = 0; a < modes.count; ++a) s.bend_rate.add(modes.first + a, p[a]);
+    add(couple_on_nodes(b, r, d.couple[i], i), fx, fy, i);
   }
   for (std::size_t m = modes.first; m < modes.first + modes.count; ++m)
     s.bend.add(m, kick.h_new * s.bend_rate[m]);
@@ -71,8 +82,7 @@ void take_back_couples(const ModeDamping& d, const BlockSet& b, const State& s, 
 
 double push_modes(State& s, const ModeLeap& leap, const Kick& kick, const Rotation& r,
                   const ModesOfBlock& force, std::size_t i) {
-  const BlockSet& b = leap.blocks;
-  const BlockModes modes = b.modes(i);
+  const BlockModes modes = leap.blocks.modes(i);
   const double per_mass = leap.masses.mode_inverse[i];
   ModesOfBlock change;
   for (std::size_t a = 0; a < modes.count; ++a) change[a] = (kick.h * per_mass) * force[a];
@@ -80,16 +90,11 @@ double push_modes(State& s, const ModeLeap& leap, const Kick& kick, const Rotati
   if (is_damped(leap)) {
     ModesOfBlock p;
     for (std::size_t a = 0; a < modes.count; ++a) p[a] = turned_back(r, change[a]);
-    decay(b, leap.masses, modes, kick.h, i, p);
-    const double to_force = 1.0 / (per_mass * kick.h);
-    for (std::size_t a = 0; a < modes.count; ++a) {
-      const std::size_t m = modes.first + a;
-      const Vec2 less = turned(r, p[a]);
-      const Vec2 at_n = s.bend[m] - kick.h_new * s.bend_rate[m];
-      change[a] += less;
-      leap.damping->force.add(m, to_force * less);
-      couple -= to_force * cross(less, at_n);
-    }
+    const auto at_n = [&](std::size_t a) {
+      return s.bend[modes.first + a] - kick.h_new * s.bend_rate[modes.first + a];
+    };
+    couple = damp(leap, kick, r, i, at_n, p);
+    for (std::size_t a = 0; a < modes.count; ++a) change[a] += p[a];
     leap.damping->couple[i] += couple;
   }
   for (std::size_t a = 0; a < modes.count; ++a) {
