@@ -48,6 +48,16 @@ Named taken_apart(const std::string& name) {
   return n;
 }
 
+/// NAME of NAME, NAME/corners or NAME/uniform, after which scenes are built with such blocks.
+std::string without_deformation(const std::string& scene) {
+  deformation_of_scenes = {};
+  const std::size_t slash = scene.find('/');
+  if (slash == std::string::npos) return scene;
+  if (scene.substr(slash) == "/corners") deformation_of_scenes = BlockDeformation::corners;
+  if (scene.substr(slash) == "/uniform") deformation_of_scenes = BlockDeformation::uniform;
+  return deformation_of_scenes ? scene.substr(0, slash) : scene;
+}
+
 void take_time(Simulation& sim, double seconds) {
   const double end = sim.motion.state.time + seconds;
   while (sim.motion.state.time < end) take_steps(sim, 1);
@@ -189,7 +199,8 @@ duration = 1000.0
 
 }  // namespace
 
-std::string flaw_of_scene(const std::string& name) {
+std::string flaw_of_scene(const std::string& scene) {
+  const std::string name = without_deformation(scene);
   const Named n = taken_apart(name);
   constexpr int most = 100'000'000;
   const bool one = n.first > 0 && n.first <= most && n.second == 0;
@@ -201,7 +212,8 @@ std::string flaw_of_scene(const std::string& name) {
   return name + ": no such scene";
 }
 
-BenchScene make_scene(const std::string& name, const std::string& cache) {
+BenchScene make_scene(const std::string& scene_name, const std::string& cache) {
+  const std::string name = without_deformation(scene_name);
   const Named n = taken_apart(name);
   if (n.kind == "collapse") return {collapsing_wall(n.first, n.second)};
   if (n.kind == "heap") return {flowing_heap(n.first)};

@@ -3,6 +3,7 @@
 #include "step/step.hpp"
 #include "step/tile_step.hpp"
 
+#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -22,9 +23,11 @@
 namespace edda {
 namespace {
 
-/// Of a brick: by how far its centroid has gone, m, and its deformation.
+/// Of a brick: by how far its centroid has gone, m, its deformation, and what its corners, in their
+/// order, deviate from that, m.
 struct Placed {
   double ux, uy, xx, xy, yx, yy;
+  Vec2 bent[8];
 };
 
 /// Elastic slip of a face at its two ends, m.
@@ -101,7 +104,11 @@ Equilibrium rest_of(Simulation& s, int columns) {
     const Deformation f = deformation(b, s.motion.state.x, s.motion.state.y, i);
     const Vec2 u =
         centroid(s.motion.state.x, s.motion.state.y, i) - Vec2{b.centroid_x[i], b.centroid_y[i]};
-    rest.bricks[key_of(place)] = {u.x, u.y, f.xx, f.xy, f.yx, f.yy};
+    Placed placed{u.x, u.y, f.xx, f.xy, f.yx, f.yy, {}};
+    const BlockModes modes = b.modes(i);
+    for (std::size_t at = 0; modes.count > 0 && at < std::min<std::size_t>(modes.corners, 8); ++at)
+      placed.bent[at] = modes.at(s.motion.state.bend, at);
+    rest.bricks[key_of(place)] = placed;
   }
   for (std::size_t k = 0; k < c.size(); ++k) {
     const Sides sides = sides_of(b, c, k);
@@ -127,6 +134,25 @@ Source stands_for(Place p, int short_columns, int columns) {
   return {{middle, p.row}, false};
 }
 
+/// The amplitudes of the modes of brick i at which its corners deviate so.
+void bend(Simulation& s, const Placed& p, std::size_t i) {
+  const BlockModes modes = s.scene->blocks.modes(i);
+  if (modes.count == 0) return;
+  Eigen::MatrixXd shape(modes.corners, modes.count), bent(modes.corners, 2);
+  for (std::size_t at = 0; at < modes.corners; ++at) {
+    const auto row = static_cast<Eigen::Index>(at);
+    const Vec2 by = at < 8 ? p.bent[at] : Vec2{};
+    bent.row(row) << by.x, by.y;
+    for (std::size_t a = 0; a < modes.count; ++a)
+      shape(row, static_cast<Eigen::Index>(a)) = modes.of(a, at);
+  }
+  const Eigen::MatrixXd q = shape.householderQr().solve(bent);
+  for (std::size_t a = 0; a < modes.count; ++a) {
+    const auto row = static_cast<Eigen::Index>(a);
+    s.motion.state.bend.set(modes[a], {q(row, 0), q(row, 1)});
+  }
+}
+
 void put(Simulation& s, const Equilibrium& rest, int columns) {
   const BlockSet& b = s.scene->blocks;
   for (std::size_t i = 0; i < b.size(); ++i) {
@@ -140,7 +166,9 @@ void put(Simulation& s, const Equilibrium& rest, int columns) {
       s.motion.state.x[k][i] = c.x + (from.drifts ? p.ux : 0.0) + p.xx * ax + p.xy * ay;
       s.motion.state.y[k][i] = c.y + p.uy + p.yx * ax + p.yy * ay;
     }
-    place_vertices(b, s.motion.state.x, s.motion.state.y, i, s.motion.pose.x, s.motion.pose.y);
+    bend(s, p, i);
+    place_vertices(b, s.motion.state.x, s.motion.state.y, s.motion.state.bend, i, s.motion.pose.x,
+                   s.motion.pose.y);
   }
   s.motion.pose.x1 = s.motion.pose.x;
   s.motion.pose.y1 = s.motion.pose.y;
@@ -215,7 +243,9 @@ bool read_map(std::ifstream& in, Map& map) {
 
 /// Begins a file: another model, or another way to its rest, does not fit.
 std::string title_of(int columns, int rows) {
-  return "at rest, 3" + wall_model(columns, rows);
+  const bool corners =
+      deformation_of_scenes.value_or(Model{}.deformation) == BlockDeformation::corners;
+  return std::string("at rest, 4") + (corners ? " corners" : "") + wall_model(columns, rows);
 }
 
 bool read_rest(const std::filesystem::path& path, const std::string& title, Equilibrium& rest) {

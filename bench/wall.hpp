@@ -3,6 +3,7 @@
 
 #include <cstdio>
 #include <cstdlib>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -40,6 +41,9 @@ duration = 1000.0
 )" + solver;
 }
 
+/// How the blocks of scenes deform, where it is not as the model says.
+inline std::optional<BlockDeformation> deformation_of_scenes;
+
 /// Before start(); ends the program with the faults if there are any.
 inline Simulation built(Result<Model> model) {
   const auto stop = [](const Faults& faults) {
@@ -47,6 +51,7 @@ inline Simulation built(Result<Model> model) {
     std::exit(1);
   };
   if (!model) stop(model.faults());
+  if (deformation_of_scenes) model.value().deformation = *deformation_of_scenes;
   Result<Simulation> sim = Simulation::create(std::move(model.value()));
   if (!sim) stop(sim.faults());
   return std::move(sim.value());

@@ -32,6 +32,8 @@ namespace edda {
 
 /// Four numbers that are added together, for sums too short for a loop over several.
 using Four __attribute__((vector_size(32))) = double;
+/// x and y of a vector.
+using Two __attribute__((vector_size(16), aligned(16))) = double;
 
 /// std::max by value: g++ does not vectorise a choice between references.
 EDDA_INLINE double larger(double a, double b) {

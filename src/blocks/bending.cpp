@@ -15,15 +15,25 @@ Eigen::Index row(std::size_t v) {
   return static_cast<Eigen::Index>(v);
 }
 
-/// mu_v: half of the mass in equal parts, half by the lengths of the edges at the corner; mean 1.
+/// mu_v: each edge has a mass by its length, half of it at either end, times a factor that is
+/// linear over the block, so that the centre of these masses is the centroid; mean 1. Of a block so
+/// odd that the factor would vanish somewhere it is reduced.
 Vector mass_parts(const BendingBlock& q) {
-  double perimeter = 0.0;
-  for (const double l : q.tributary) perimeter += l;
-  const auto n = static_cast<double>(q.corner.size());
-  Vector mu(row(q.corner.size()));
-  for (std::size_t v = 0; v < q.corner.size(); ++v)
-    mu[row(v)] = 0.5 + 0.5 * n * q.tributary[v] / perimeter;
-  return mu;
+  const auto n = row(q.corner.size());
+  Vector mu(n);
+  Eigen::MatrixX2d x(n, 2);
+  for (std::size_t v = 0; v < q.corner.size(); ++v) {
+    mu[row(v)] = q.tributary[v];
+    x.row(row(v)) << q.corner[v].x, q.corner[v].y;
+  }
+  mu /= mu.sum();
+  const Eigen::RowVector2d centre = mu.transpose() * x;
+  x.rowwise() -= centre;
+  const Eigen::Matrix2d moments = x.transpose() * mu.asDiagonal() * x;
+  const Vector change = -x * moments.ldlt().solve(centre.transpose());
+  constexpr double most = 0.75;
+  mu.array() *= 1.0 + std::min(1.0, most / std::max(-change.minCoeff(), most)) * change.array();
+  return static_cast<double>(n) / mu.sum() * mu;
 }
 
 /// An orthonormal basis, in the metric of mu, of what contains no affine motion, [n][n - 3].
@@ -134,14 +144,16 @@ Matrix modes_of(const BendingBlock& q, const Vector& mu, const Matrix& shape,
   return images;
 }
 
-/// The motions of the corners that linear stresses make, as unit vectors among the modes, and their
-/// stiffness, which is exact: the inverse of B W^-1 B^T, with the modes B and the energies W of
-/// linear stresses; of all stresses that move corners alike that of least energy counts. Only those
-/// that are softer than a boundary that moves by itself: corners of a block that is nearly a
-/// triangle hardly tell of some.
+/// Where linear stresses move the corners. B: the motions of the modes that these make, W their
+/// energies; of all that move corners alike that of least energy counts, so that the motions
+/// s = B c have the compliance B W^-1 B^T = U S^-1 U^T. What the modes do beside them is what D
+/// does not couple with them, s - U c with G c = U^T D s, G = U^T D U, so that
+///  K = D - D U G^-1 (G - S) G^-1 U^T D,
+/// which no choice of axes or of a metric enters. Only of those that are softer than D: corners of
+/// a block that is nearly a triangle hardly tell of some.
 struct BendingModes {
-  Matrix axis;  ///< [2 modes][4]; 0: none
-  std::array<double, bendings> kappa{};
+  Matrix axis;  ///< e_b, [2 modes][4]; 0: none
+  std::array<double, bendings> less{};
 };
 BendingModes bending_modes(const BendingBlock& q, const Vector& mu, const Matrix& shape,
                            const Vector& k) {
@@ -153,42 +165,81 @@ BendingModes bending_modes(const BendingBlock& q, const Vector& mu, const Matrix
       energy(row(b), row(c)) = energy_of(q, fields[b], fields[c], nu);
   }
   const Matrix images = modes_of(q, mu, shape, fields);
-  const Matrix compliance = images * energy.ldlt().solve(images.transpose());
-  const Eigen::SelfAdjointEigenSolver<Matrix> soft(compliance);
-  const double modulus = plane_modulus(q) * q.thickness;
+  const Eigen::SelfAdjointEigenSolver<Matrix> compliance(
+      (images * energy.ldlt().solve(images.transpose())).eval());
+  const Eigen::Index size = images.rows(), most = std::min(size, row(bendings));
+  constexpr double rounding = 1e-12;
+  const double least = rounding * compliance.eigenvalues()[size - 1];
+  Eigen::Index rank = 0;
+  while (rank < most && compliance.eigenvalues()[size - 1 - rank] > least) ++rank;
+  const Matrix u = compliance.eigenvectors().rightCols(rank);
+  Vector stiffness(size);  // D
+  for (Eigen::Index c = 0; c < size; ++c) stiffness[c] = k[c / 2];
+  const Vector exact =
+      plane_modulus(q) * q.thickness * compliance.eigenvalues().tail(rank).cwiseInverse();
+  const Matrix du = stiffness.asDiagonal() * u;
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix> soft(Matrix(u.transpose() * du),
+                                                              Matrix(exact.asDiagonal()));
+  // D U G^-1 (G - S) G^-1 U^T D, with G c = mu S c and c.S c = 1, so that c.G c = mu.
+  const Eigen::ArrayXd per = soft.eigenvalues().array().max(1.0).inverse();
+  const Vector softer = ((1.0 - per) * per).sqrt();
+  const Matrix root = du * soft.eigenvectors() * softer.asDiagonal();
+  const Eigen::SelfAdjointEigenSolver<Matrix> less((root.transpose() * root).eval());
   BendingModes found;
-  found.axis = Matrix::Zero(images.rows(), row(bendings));
-  for (std::size_t b = 0; b < bendings && row(b) < images.rows(); ++b) {
-    const Eigen::Index at = images.rows() - 1 - row(b);  // the softest first
-    const Vector e = soft.eigenvectors().col(at);
-    double boundary = 0.0;
-    for (Eigen::Index c = 0; c < e.size(); ++c) boundary += k[c / 2] * e[c] * e[c];
-    if (!(soft.eigenvalues()[at] * boundary > modulus)) break;
-    found.axis.col(row(b)) = e;
-    found.kappa[b] = modulus / soft.eigenvalues()[at];
+  found.axis = Matrix::Zero(size, row(bendings));
+  for (Eigen::Index b = 0; b < rank; ++b) {
+    const double square = less.eigenvalues()[b];
+    if (!(square > rounding * stiffness.maxCoeff())) continue;
+    found.axis.col(b) = root * less.eigenvectors().col(b) / std::sqrt(square);
+    found.less[static_cast<std::size_t>(b)] = square;
   }
   return found;
 }
 
-/// Mean of k_a beside the bendings: of D on what is left of the modes' components.
-double rest_of(const Vector& k, const BendingModes& bending) {
+/// e . K e of each e_b, and the mean of K on what is left of the modes' components.
+struct OwnStiffness {
+  std::array<double, bendings> along{};
+  double beside = 0.0;
+};
+OwnStiffness own_stiffness(const Vector& k, const BendingModes& bending) {
+  OwnStiffness own;
   double sum = 2.0 * k.sum(), count = 2.0 * static_cast<double>(k.size());
-  for (Eigen::Index b = 0; b < bending.axis.cols(); ++b) {
-    if (bending.axis.col(b).squaredNorm() == 0.0) continue;
+  for (std::size_t b = 0; b < bendings; ++b) {
+    const auto e = bending.axis.col(row(b));
+    if (e.squaredNorm() == 0.0) continue;
+    double of_boundary = 0.0;
+    for (Eigen::Index c = 0; c < e.size(); ++c) of_boundary += k[c / 2] * e[c] * e[c];
+    own.along[b] = of_boundary - bending.less[b];
+    sum -= of_boundary;
     count -= 1.0;
-    for (Eigen::Index c = 0; c < bending.axis.rows(); ++c)
-      sum -= k[c / 2] * bending.axis(c, b) * bending.axis(c, b);
   }
-  return count > 0.5 ? sum / count : 0.0;
+  own.beside = count > 0.5 ? sum / count : 0.0;
+  return own;
 }
 
-void close_block(Bending& out) {
+/// Room for the modes of the next block, which are its numbers at the places of the result. A group
+/// grows by places for all of its blocks: it is the last.
+ModePlaces open_block(Bending& out, std::size_t count) {
   if (out.begin.empty()) {
     out.begin.push_back(0);
     out.shape_begin.push_back(0);
   }
-  out.begin.push_back(static_cast<std::uint32_t>(out.stiffness.size()));
+  const std::size_t i = out.count.size();
+  if (i % group_size == 0) {
+    out.begin.push_back(out.begin.back());
+    for (std::vector<double>& less : out.less) less.resize(i + group_size, 0.0);
+  }
+  const std::size_t begin = out.begin[out.begin.size() - 2];
+  const std::size_t end = std::max<std::size_t>(out.begin.back(), begin + count * group_size);
+  out.begin.back() = static_cast<std::uint32_t>(end);
+  out.stiffness.resize(end, 0.0);
+  for (ModeVectors& axis : out.axis) {
+    axis.x.resize(end, 0.0);
+    axis.y.resize(end, 0.0);
+  }
+  out.count.push_back(static_cast<std::uint8_t>(count));
   out.shape_begin.push_back(out.shape.size());
+  return {begin + i % group_size, count};
 }
 
 }  // namespace
@@ -202,23 +253,30 @@ void add_modes(Bending& out, const BendingBlock& q) {
   const Matrix shape = basis * own.eigenvectors();
   const Vector k = modulus * own.eigenvalues();
   const BendingModes bending = bending_modes(q, mu, shape, k);
+  const ModePlaces place = open_block(out, static_cast<std::size_t>(shape.cols()));
   for (Eigen::Index a = 0; a < shape.cols(); ++a) {
-    for (Eigen::Index v = 0; v < shape.rows(); ++v) out.shape.push_back(shape(v, a));
-    out.stiffness.push_back(k[a]);
-    for (std::size_t b = 0; b < bendings; ++b) {
-      out.axis[b].x.push_back(bending.axis(2 * a, row(b)));
-      out.axis[b].y.push_back(bending.axis(2 * a + 1, row(b)));
-    }
+    const std::size_t at = place[static_cast<std::size_t>(a)];
+    out.stiffness[at] = k[a];
+    for (std::size_t b = 0; b < bendings; ++b)
+      out.axis[b].set(at, {bending.axis(2 * a, row(b)), bending.axis(2 * a + 1, row(b))});
   }
-  for (std::size_t b = 0; b < bendings; ++b) out.kappa[b].push_back(bending.kappa[b]);
-  out.rest_stiffness.push_back(rest_of(k, bending));
-  close_block(out);
+  for (Eigen::Index v = 0; v < shape.rows(); ++v) {
+    for (Eigen::Index a = 0; a < shape.cols(); ++a) out.shape.push_back(shape(v, a));
+  }
+  const std::size_t i = out.count.size() - 1;
+  const OwnStiffness own_of = own_stiffness(k, bending);
+  for (std::size_t b = 0; b < bendings; ++b) {
+    out.less[b][i] = bending.less[b];
+    out.along[b].push_back(own_of.along[b]);
+  }
+  out.beside.push_back(own_of.beside);
+  out.shape_begin.back() = out.shape.size();
 }
 
 void add_no_modes(Bending& out) {
-  for (std::vector<double>& kappa : out.kappa) kappa.push_back(0.0);
-  out.rest_stiffness.push_back(0.0);
-  close_block(out);
+  open_block(out, 0);
+  for (std::vector<double>& along : out.along) along.push_back(0.0);
+  out.beside.push_back(0.0);
 }
 
 }  // namespace edda

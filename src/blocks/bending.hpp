@@ -9,16 +9,18 @@
 // deformation gradient over the block, and mu_v the part of the mass at the corner, n at all of
 // them. So the mean strain is that of the nodes, and each mode moves the mass m = M/n.
 // With s_a = R^T q_a, R the rotation of the nodes' F, the modes store s^T K s/2,
-//   K = (1 - E) D (1 - E) + sum_b kappa_b e_b e_b^T,  E = sum_b e_b e_b^T:
-// e_b are the motions that stresses make which are linear over the block, as in bending, of which
-// kappa_b is exact, and D = diag(k_a) is the stiffness of a boundary that moves by itself
-// (bending.cpp).
+//   K = D - sum_b less_b e_b e_b^T:
+// D = diag(k_a) is the stiffness of a boundary that moves by itself, and the orthonormal e_b take
+// away what it is too stiff by where stresses that are linear over the block, as in bending, move
+// the corners: of these K is exact (bending.cpp).
 #pragma once
 
 #include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
+#include <type_traits>
 #include <vector>
 
 #include "base/vec2.hpp"
@@ -26,7 +28,17 @@
 
 namespace edda {
 
-/// Numbers of the modes of all blocks, one block after the other.
+/// Blocks are taken in groups of eight that follow each other, for loops over all of a group.
+inline constexpr std::size_t group_size = 8;
+using Eight __attribute__((vector_size(64))) = double;
+
+/// The number of blocks with those that would fill the last group.
+inline std::size_t in_groups(std::size_t blocks) {
+  return (blocks + group_size - 1) / group_size * group_size;
+}
+
+/// Numbers of the modes of all blocks, at the places that BlockModes names; 0 where a block has
+/// fewer modes than others of its group.
 struct ModeVectors {
   std::vector<double> x, y;
   std::size_t size() const { return x.size(); }
@@ -50,18 +62,25 @@ inline constexpr std::size_t bendings = 4;
 
 /// The modes of the blocks, constant during a run. All empty where no block bends.
 struct Bending {
-  std::vector<std::uint32_t> begin;      ///< [nb + 1] first mode of each block
+  std::vector<std::uint32_t> begin;      ///< [groups + 1] where the places of a group begin
+  std::vector<std::uint8_t> count;       ///< [nb] modes of each block
   std::vector<std::size_t> shape_begin;  ///< [nb + 1] where its shapes begin
-  std::vector<double> shape;             ///< h_av: of each mode of a block, of each of its corners
-  std::vector<double> stiffness;         ///< [modes] k_a, N/m
-  std::array<ModeVectors, bendings> axis;           ///< [4][modes] e_b; 0: none
-  std::array<std::vector<double>, bendings> kappa;  ///< [4][nb] kappa_b, N/m
-  std::vector<double> rest_stiffness;               ///< [nb] mean of k_a beside the bendings, N/m
+  std::vector<double> shape;             ///< h_av: of each corner of a block, of each of its modes
+  std::vector<double> stiffness;         ///< [places] k_a, N/m
+  std::array<ModeVectors, bendings> axis;           ///< [4][places] e_b; 0: none
+  std::array<std::vector<double>, bendings> less;   ///< [4][in_groups(nb)] less_b, N/m
+  std::array<std::vector<double>, bendings> along;  ///< [4][nb] e_b . K e_b, N/m
+  std::vector<double> beside;                       ///< [nb] mean of K beside the e_b, N/m
 
+  /// The number of places.
   std::size_t modes() const { return stiffness.size(); }
   bool any() const { return !stiffness.empty(); }
   /// The number of modes of block i.
-  std::size_t modes_of(std::size_t i) const { return begin.empty() ? 0 : begin[i + 1] - begin[i]; }
+  std::size_t modes_of(std::size_t i) const { return count.empty() ? 0 : count[i]; }
+  /// The first place of the group of block i, or of the next where i is the number of blocks.
+  std::size_t begin_of_group(std::size_t i) const {
+    return begin[(i + group_size - 1) / group_size];
+  }
 };
 
 /// The most corners of a block that bends. A block with more is uniform: its shapes take the square
@@ -71,20 +90,22 @@ inline constexpr std::size_t most_modes = most_corners_that_bend - 3;
 
 /// The modes of one block, and their shapes at its corners.
 struct BlockModes {
-  std::size_t first, count;  ///< its modes
-  const double* shape;       ///< [count][corners]
+  std::size_t first, count;  ///< the place of its first mode, and how many there are
+  const double* shape;       ///< [corners][count]
   std::size_t corners;
+  /// The place of mode a.
+  std::size_t operator[](std::size_t a) const { return first + group_size * a; }
   /// h_a at the corner `at`, counted from the block's first.
-  double of(std::size_t a, std::size_t at) const { return shape[a * corners + at]; }
+  double of(std::size_t a, std::size_t at) const { return shape[at * count + a]; }
   /// sum_a h_a v_a at a corner.
   Vec2 at(const ModeVectors& v, std::size_t corner) const {
     Vec2 sum;
-    for (std::size_t a = 0; a < count; ++a) sum += of(a, corner) * v[first + a];
+    for (std::size_t a = 0; a < count; ++a) sum += of(a, corner) * v[(*this)[a]];
     return sum;
   }
   /// Adds a force on a corner to those on the modes.
   void spread(ModeVectors& on, std::size_t corner, Vec2 force) const {
-    for (std::size_t a = 0; a < count; ++a) on.add(first + a, of(a, corner) * force);
+    for (std::size_t a = 0; a < count; ++a) on.add((*this)[a], of(a, corner) * force);
   }
   /// The sum of the squares of the shapes at a corner, and their product at two.
   double product(std::size_t corner, std::size_t other) const {
@@ -93,46 +114,119 @@ struct BlockModes {
     return sum;
   }
 };
-inline BlockModes modes_of(const Bending& b, std::size_t i, std::size_t corners) {
-  if (b.begin.empty()) return {0, 0, nullptr, corners};
-  return {b.begin[i], b.begin[i + 1] - b.begin[i], b.shape.data() + b.shape_begin[i], corners};
+EDDA_INLINE BlockModes modes_of(const Bending& b, std::size_t i, std::size_t corners) {
+  if (b.count.empty()) return {0, 0, nullptr, corners};
+  return {b.begin[i / group_size] + i % group_size, b.count[i], b.shape.data() + b.shape_begin[i],
+          corners};
 }
 
-/// Numbers of the modes of one block along its bendings, and what they are beside these.
+/// Calls body(count): with the counts that most blocks have as constants.
+template <class Body>
+EDDA_INLINE void with_count(std::size_t count, Body body) {
+  switch (count) {
+    case 1:
+      return body(std::integral_constant<std::size_t, 1>{});
+    case 2:
+      return body(std::integral_constant<std::size_t, 2>{});
+    case 3:
+      return body(std::integral_constant<std::size_t, 3>{});
+    case 4:
+      return body(std::integral_constant<std::size_t, 4>{});
+    default:
+      return body(count);
+  }
+}
+
+/// Numbers of the modes of one block (T = double), or of all of a group (T = Eight).
+template <class T>
+struct ModeArray {
+  T x[most_modes], y[most_modes];
+  Vec2 operator[](std::size_t a) const { return {x[a], y[a]}; }
+  void set(std::size_t a, Vec2 v) {
+    x[a] = v.x;
+    y[a] = v.y;
+  }
+};
+using ModesOfBlock = ModeArray<double>;
+
+// Vectors are passed between inlined functions alone.
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wpsabi"
+
+/// The numbers from a place on: one, or eight.
+template <class T>
+EDDA_INLINE T from(const double* place) {
+  T values;
+  std::memcpy(&values, place, sizeof values);
+  return values;
+}
+template <class T>
+EDDA_INLINE void to(double* place, const T& values) {
+  std::memcpy(place, &values, sizeof values);
+}
+
+/// `count` modes from the place `first` on: of a block, or of the eight of a group.
+struct ModePlaces {
+  std::size_t first, count;
+  std::size_t operator[](std::size_t a) const { return first + group_size * a; }
+};
+
+/// What the modes of all blocks have, for loops.
+struct BendingView {
+  const double *stiffness, *x[bendings], *y[bendings], *less[bendings];
+};
+inline BendingView view_of(const Bending& b) {
+  BendingView v{b.stiffness.data(), {}, {}, {}};
+  for (std::size_t k = 0; k < bendings; ++k) {
+    v.x[k] = b.axis[k].x.data();
+    v.y[k] = b.axis[k].y.data();
+    v.less[k] = b.less[k].data();
+  }
+  return v;
+}
+
+/// Numbers of modes along the bendings of their block.
+template <class T>
 struct BentParts {
-  double along[bendings];
+  T along[bendings];
 };
 /// sum_a e_ba . v_a.
-template <class Values>
-inline BentParts bent_parts(const Bending& b, const BlockModes& modes, const Values& v) {
-  BentParts parts{};
+template <class T>
+EDDA_INLINE BentParts<T> bent_parts(const BendingView& b, ModePlaces modes, const ModeArray<T>& v) {
+  BentParts<T> parts{};
   for (std::size_t a = 0; a < modes.count; ++a) {
     for (std::size_t k = 0; k < bendings; ++k)
-      parts.along[k] += dot(b.axis[k][modes.first + a], v(a));
+      parts.along[k] += from<T>(b.x[k] + modes[a]) * v.x[a] + from<T>(b.y[k] + modes[a]) * v.y[a];
   }
   return parts;
 }
-/// sum_b e_ba alpha_b.
-inline Vec2 of_bendings(const Bending& b, const BentParts& parts, std::size_t mode) {
-  Vec2 sum;
-  for (std::size_t k = 0; k < bendings; ++k) sum += parts.along[k] * b.axis[k][mode];
-  return sum;
+/// Adds sum_b e_ba alpha_b to v.
+template <class T>
+EDDA_INLINE void add_bendings(const BendingView& b, ModePlaces modes, const BentParts<T>& alpha,
+                              ModeArray<T>& v) {
+  for (std::size_t a = 0; a < modes.count; ++a) {
+    for (std::size_t k = 0; k < bendings; ++k) {
+      v.x[a] += alpha.along[k] * from<T>(b.x[k] + modes[a]);
+      v.y[a] += alpha.along[k] * from<T>(b.y[k] + modes[a]);
+    }
+  }
 }
 
-/// K s of block i into `out`, with s(a) of its modes.
-template <class Values>
-inline void mode_stress(const Bending& b, const BlockModes& modes, std::size_t i, const Values& s,
-                        Vec2* out) {
-  BentParts alpha = bent_parts(b, modes, s);
+/// K s of block i, or of the group of which it is the first, in place of s.
+template <class T>
+EDDA_INLINE void mode_stress(const BendingView& b, ModePlaces modes, std::size_t i,
+                             ModeArray<T>& s) {
+  BentParts<T> alpha = bent_parts(b, modes, s);
+  for (std::size_t k = 0; k < bendings; ++k) alpha.along[k] *= -from<T>(b.less[k] + i);
   for (std::size_t a = 0; a < modes.count; ++a) {
-    const std::size_t m = modes.first + a;
-    out[a] = b.stiffness[m] * (s(a) - of_bendings(b, alpha, m));
+    const T k = from<T>(b.stiffness + modes[a]);
+    s.x[a] *= k;
+    s.y[a] *= k;
   }
-  const BentParts gamma = bent_parts(b, modes, [out](std::size_t a) { return out[a]; });
-  for (std::size_t k = 0; k < bendings; ++k)
-    alpha.along[k] = b.kappa[k][i] * alpha.along[k] - gamma.along[k];
-  for (std::size_t a = 0; a < modes.count; ++a) out[a] += of_bendings(b, alpha, modes.first + a);
+  add_bendings(b, modes, alpha, s);
 }
+
+#pragma GCC diagnostic pop
 
 /// Polygon of a block, for its modes.
 struct BendingBlock {
@@ -144,7 +238,7 @@ struct BendingBlock {
   double thickness;                      ///< m
 };
 
-/// Appends the modes of the next block.
+/// Appends the modes of the next block, in the order of the blocks.
 void add_modes(Bending& bending, const BendingBlock& block);
 /// Appends a block that does not bend.
 void add_no_modes(Bending& bending);

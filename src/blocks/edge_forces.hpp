@@ -38,19 +38,24 @@ class EdgeForces {
 /// on; x, y: [modes of all blocks].
 EDDA_INLINE void gather_modes(const BlockModes& modes, const Id* next, Id first, const Four* sums,
                               double* x, double* y) {
-  using XY __attribute__((vector_size(16))) = double;
-  XY corner[most_corners_that_bend];
-  for (std::size_t at = 0; at < modes.corners; ++at) corner[at] = XY{sums[at][0], sums[at][1]};
+  Two corner[most_corners_that_bend];
+  for (std::size_t at = 0; at < modes.corners; ++at) corner[at] = Two{sums[at][0], sums[at][1]};
   for (std::size_t at = 0; at < modes.corners; ++at)
-    corner[next[at] - first] += XY{sums[at][2], sums[at][3]};
-  for (std::size_t a = 0; a < modes.count; ++a) {
-    XY sum{};
+    corner[next[at] - first] += Two{sums[at][2], sums[at][3]};
+  Two on[most_modes];
+  const auto gather = [&](auto count) __attribute__((always_inline)) {
+    for (std::size_t a = 0; a < count; ++a) on[a] = Two{};
     for (std::size_t at = 0; at < modes.corners; ++at) {
-      const double h = modes.of(a, at);
-      sum += XY{h, h} * corner[at];
+      for (std::size_t a = 0; a < count; ++a) {
+        const double h = modes.shape[at * count + a];
+        on[a] += Two{h, h} * corner[at];
+      }
     }
-    x[modes.first + a] = sum[0];
-    y[modes.first + a] = sum[1];
+  };
+  with_count(modes.count, gather);
+  for (std::size_t a = 0; a < modes.count; ++a) {
+    x[modes[a]] = on[a][0];
+    y[modes[a]] = on[a][1];
   }
 }
 

@@ -21,7 +21,8 @@ void add_to_free(const BlockSet& b, const State& s, const ForcesToAdd& forces, s
 void add_to_modes(const BlockSet& b, const ModeVectors& on, ModeVectors& forces, std::size_t begin,
                   std::size_t end) {
   if (!b.bending.any()) return;
-  for (std::size_t m = b.bending.begin[begin]; m < b.bending.begin[end]; ++m) forces.add(m, on[m]);
+  for (std::size_t m = b.bending.begin_of_group(begin); m < b.bending.begin_of_group(end); ++m)
+    forces.add(m, on[m]);
 }
 
 }  // namespace edda

@@ -79,8 +79,8 @@ void fill_point_masses(Masses& m, const BlockSet& b) {
       m.node_inverse[k][i] = m.node[k][i] > 0.0 ? 1.0 / m.node[k][i] : 0.0;
     }
   }
-  m.mode_inverse.assign(b.bending.any() ? b.size() : 0, 0.0);
-  for (std::size_t i = 0; i < m.mode_inverse.size(); ++i) {
+  m.mode_inverse.assign(b.bending.any() ? in_groups(b.size()) : 0, 0.0);
+  for (std::size_t i = 0; b.bending.any() && i < b.size(); ++i) {
     const double inertia = b.fixed[i] ? 0.0 : inertia_of(m, i);
     const auto corners = static_cast<double>(b.vertex_begin[i + 1] - b.vertex_begin[i]);
     if (inertia > 0.0) m.mode_inverse[i] = corners / inertia;

@@ -19,11 +19,11 @@ struct Masses {
       inverse;  ///< [6][nb] M^-1, order 11 12 13 22 23 33, 1/kg; `consistent` only
   std::vector<double> point_inverse,
       edge_inverse;  ///< [nv] w_v^T M^-1 w_v and w_v^T M^-1 w_next, 1/kg; 0 where it is fixed
-  std::vector<double> mode_inverse;  ///< [nb] 1/m of each mode, 1/kg; 0 where it is fixed; empty
-                                     ///< where no block bends
+  std::vector<double> mode_inverse;  ///< [in_groups(nb)] 1/m of each mode, 1/kg; 0 where it is
+                                     ///< fixed; empty where no block bends
   std::array<std::vector<double>, bendings + 1>
-      mode_damping;  ///< [5][nb] 2 zeta w along each e_b, and of the other modes, 1/s; empty where
-                     ///< none is damped
+      mode_damping;  ///< [5][in_groups(nb)] 2 zeta w along each e_b, and of the other modes, 1/s;
+                     ///< empty where none is damped
   std::vector<double> viscosity;  ///< [nb] eta: viscous stress over elastic stress rate, s; empty
                                   ///< where no block has any
   std::vector<double> raised;  ///< [nb] factor of mass scaling on the masses; empty: none is raised
@@ -62,7 +62,7 @@ double mass_product(const Masses& masses, std::size_t i, const NodeVectors& u,
 /// sum of u . v over the modes of a block.
 inline double mode_product(const BlockModes& modes, const ModeVectors& u, const ModeVectors& v) {
   double sum = 0.0;
-  for (std::size_t m = modes.first; m < modes.first + modes.count; ++m) sum += dot(u[m], v[m]);
+  for (std::size_t a = 0; a < modes.count; ++a) sum += dot(u[modes[a]], v[modes[a]]);
   return sum;
 }
 

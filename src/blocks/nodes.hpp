@@ -93,7 +93,7 @@ inline NodeVectors at_every_node(Vec2 v) {
 }
 
 /// sum u_k . v_k: the work of forces over displacements.
-inline double dot(const NodeVectors& u, const NodeVectors& v) {
+EDDA_INLINE double dot(const NodeVectors& u, const NodeVectors& v) {
   double sum = 0.0;
   for (std::size_t k = 0; k < nodes_per_block; ++k) sum += dot(u[k], v[k]);
   return sum;

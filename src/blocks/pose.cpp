@@ -14,9 +14,22 @@ struct VertexView {
   double *to_x, *to_y;
 };
 
+constexpr double lost = 1e300;  ///< square of a distance that is not finite
+
+/// The largest square of a distance between both places of a vertex.
+EDDA_INLINE double largest_move(const VertexView& p, std::size_t begin, std::size_t end) {
+  double largest = 0.0;
+#pragma omp simd reduction(max : largest)
+  for (std::size_t v = begin; v < end; ++v) {
+    const double dx = p.to_x[v] - p.from_x[v], dy = p.to_y[v] - p.from_y[v];
+    const double d2 = dx * dx + dy * dy;
+    largest = larger(largest, d2 <= lost ? d2 : lost);
+  }
+  return largest;
+}
+
 EDDA_VECTOR double place(VertexView p, ConstNodeValues x, ConstNodeValues y, std::size_t begin,
                          std::size_t end) {
-  constexpr double lost = 1e300;
   double largest = 0.0;
 #pragma omp simd reduction(max : largest)
   for (std::size_t v = begin; v < end; ++v) {
@@ -32,31 +45,39 @@ EDDA_VECTOR double place(VertexView p, ConstNodeValues x, ConstNodeValues y, std
   return largest;
 }
 
-/// The same of blocks of which some bend.
-double place_bent(const VertexView& p, const BlockSet& b, const State& s, std::size_t begin,
-                  std::size_t end) {
-  constexpr double lost = 1e300;
-  double largest = 0.0;
+/// Blocks of which some bend.
+struct BentBlocks {
+  ConstNodeValues x, y;
+  const Id* vertex_begin;
+  const Bending& bending;
+  const double *bend_x, *bend_y;
+};
+
+/// The same of these.
+EDDA_VECTOR double place_bent(VertexView p, BentBlocks b, std::size_t begin, std::size_t end) {
   for (std::size_t i = begin; i < end; ++i) {
-    const NodeVectors x = vectors_of(s.x, s.y, i);
-    const BlockModes modes = b.modes(i);
     const Id first = b.vertex_begin[i];
-    for (std::size_t at = 0; at < modes.corners; ++at) {
-      const std::size_t v = first + at;
-      const double w1 = p.weight[1][v], w2 = p.weight[2][v], w0 = 1.0 - w1 - w2;
-      double px = w0 * x[0].x + w1 * x[1].x + w2 * x[2].x;
-      double py = w0 * x[0].y + w1 * x[1].y + w2 * x[2].y;
-      for (std::size_t a = 0; a < modes.count; ++a) {
-        px += modes.of(a, at) * s.bend.x[modes.first + a];
-        py += modes.of(a, at) * s.bend.y[modes.first + a];
+    const BlockModes modes = modes_of(b.bending, i, b.vertex_begin[i + 1] - first);
+    const double x0 = b.x[0][i], x1 = b.x[1][i], x2 = b.x[2][i];
+    const double y0 = b.y[0][i], y1 = b.y[1][i], y2 = b.y[2][i];
+    const auto place_all = [&](auto count) __attribute__((always_inline)) {
+      Two q[most_modes];
+      for (std::size_t a = 0; a < count; ++a) q[a] = Two{b.bend_x[modes[a]], b.bend_y[modes[a]]};
+      for (std::size_t at = 0; at < modes.corners; ++at) {
+        const std::size_t v = first + at;
+        const double w1 = p.weight[1][v], w2 = p.weight[2][v], w0 = 1.0 - w1 - w2;
+        Two sum{w0 * x0 + w1 * x1 + w2 * x2, w0 * y0 + w1 * y1 + w2 * y2};
+        for (std::size_t a = 0; a < count; ++a) {
+          const double h = modes.shape[at * count + a];
+          sum += Two{h, h} * q[a];
+        }
+        p.to_x[v] = sum[0];
+        p.to_y[v] = sum[1];
       }
-      const double dx = px - p.from_x[v], dy = py - p.from_y[v], d2 = dx * dx + dy * dy;
-      p.to_x[v] = px;
-      p.to_y[v] = py;
-      largest = larger(largest, d2 <= lost ? d2 : lost);
-    }
+    };
+    with_count(modes.count, place_all);
   }
-  return largest;
+  return largest_move(p, b.vertex_begin[begin], b.vertex_begin[end]);
 }
 
 }  // namespace
@@ -65,7 +86,11 @@ double place_next(const BlockSet& b, const State& s, Pose& pose, std::size_t beg
                   std::size_t end) {
   const VertexView view{values_of(b.weight), b.vertex_block.data(), pose.x.data(),
                         pose.y.data(),       pose.x1.data(),        pose.y1.data()};
-  if (b.bending.any()) return place_bent(view, b, s, begin, end);
+  if (b.bending.any()) {
+    const BentBlocks blocks{values_of(s.x), values_of(s.y),  b.vertex_begin.data(),
+                            b.bending,      s.bend.x.data(), s.bend.y.data()};
+    return place_bent(view, blocks, begin, end);
+  }
   return place(view, values_of(s.x), values_of(s.y), b.vertex_begin[begin], b.vertex_begin[end]);
 }
 

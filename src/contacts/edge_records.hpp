@@ -11,8 +11,6 @@
 
 namespace edda {
 
-using Two __attribute__((vector_size(16), aligned(16))) = double;
-
 EDDA_INLINE Four four_at(const double* from) {
   return *reinterpret_cast<const Four*>(from);
 }

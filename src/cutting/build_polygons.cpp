@@ -36,8 +36,8 @@ Faults too_few_corners(const Model& model) {
   return faults;
 }
 
-/// The work on a block grows with the square of its corners, and a uniform strain is too coarse for
-/// a block with so many.
+/// The work on a block grows with the square of its corners, and one strain, which blocks of many
+/// corners have, is too coarse for so many.
 constexpr std::size_t most_corners = 10000;
 
 Faults too_many_corners(const std::vector<BlockPolygon>& blocks, std::size_t first_cut) {

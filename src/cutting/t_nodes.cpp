@@ -12,6 +12,13 @@ namespace {
 struct Corner {
   Vec2 at;
   std::size_t block;
+  Vec2 in, out;  ///< unit vectors of the edges before and after it
+
+  /// Whether both of its edges lie along this direction: then it is hardly a corner.
+  bool lies_along(Vec2 direction) const {
+    return std::min(std::abs(dot(in, direction)), std::abs(dot(out, direction))) > along_from;
+  }
+  static constexpr double along_from = 0.99;  // cosine: 8 degrees
 };
 
 /// The corners of all blocks, in square cells.
@@ -29,7 +36,12 @@ class Cells {
     size_ = edges > 0 ? length / static_cast<double>(edges) : 1.0;
     for (std::size_t i = 0; i < set.blocks.size(); ++i) {
       for (const Ring& ring : set.blocks[i].rings) {
-        for (const Vec2 p : ring) corners_[key(index(p.x), index(p.y))].push_back({p, i});
+        const std::size_t n = ring.size();
+        for (std::size_t v = 0; v < n; ++v) {
+          const Vec2 p = ring[v];
+          corners_[key(index(p.x), index(p.y))].push_back(
+              {p, i, unit(p - ring[(v + n - 1) % n]), unit(ring[(v + 1) % n] - p)});
+        }
       }
     }
   }
@@ -84,7 +96,7 @@ std::vector<Node> nodes_within(const Cells& cells, Vec2 a, Vec2 b, std::size_t i
   const double square = dot(along, along);
   std::vector<Node> nodes;
   cells.along(a, b, tolerance, [&](const Corner& c) {
-    if (c.block == i) return;
+    if (c.block == i || c.lies_along(unit(along))) return;
     const double fraction = dot(c.at - a, along) / square;
     if (std::abs(cross(c.at - a, along)) > tolerance * std::sqrt(square)) return;
     nodes.push_back({fraction, c.at});
@@ -113,43 +125,58 @@ struct Edge {
   }
 };
 
-/// How thick the block is at p, a point of one of its edges, across that edge, m; infinite if no
-/// other edge lies there.
-double thickness_at(const std::vector<Edge>& edges, const Edge& own, Vec2 p) {
-  const Vec2 inward = perp(unit(own.to - own.from));
-  double least = std::numeric_limits<double>::infinity();
-  for (const Edge& e : edges) {
-    const Vec2 along = e.to - e.from;
+/// What lies across the block from p, a point of one of its edges: the edge, the fraction of the
+/// way along it, and how far away it is, m; infinite if none does.
+struct Across {
+  std::size_t edge = 0;
+  double fraction = 0.0, distance = std::numeric_limits<double>::infinity();
+};
+Across across_from(const std::vector<Edge>& edges, std::size_t own, Vec2 p) {
+  const Vec2 inward = perp(unit(edges[own].to - edges[own].from));
+  Across nearest;
+  for (std::size_t k = 0; k < edges.size(); ++k) {
+    const Vec2 along = edges[k].to - edges[k].from;
     const double turn = cross(inward, along);
-    if (&e == &own || turn == 0.0) continue;
-    const double distance = cross(e.from - p, along) / turn,
-                 fraction = cross(e.from - p, inward) / turn;
-    if (distance > 0.0 && fraction >= 0.0 && fraction <= 1.0) least = std::min(least, distance);
+    if (k == own || turn == 0.0) continue;
+    const double distance = cross(edges[k].from - p, along) / turn,
+                 fraction = cross(edges[k].from - p, inward) / turn;
+    if (distance > 0.0 && distance < nearest.distance && fraction >= 0.0 && fraction <= 1.0)
+      nearest = {k, fraction, distance};
   }
-  return least;
+  return nearest;
 }
 
-/// A long block bends between its nodes, as far as these tell, and is held at them alone, even if a
-/// face or a boundary supports it all along. So edges that are longer than the block is thick are
-/// divided into pieces of about its thickness, with the nodes that they have already.
-void divide_long_edges(std::vector<Edge>& edges) {
+/// Where a node within a long edge moves, the block seems to bend as a whole, since the opposite
+/// edge, which a face or a boundary may hold all along, has no corner that tells. So nodes of edges
+/// that are longer than the block is thick there have partners across it.
+void add_partners(std::vector<Edge>& edges) {
   constexpr double long_from = 1.5;  // of the thickness
-  constexpr int most = 10;           // pieces
-  for (Edge& e : edges) {
-    const Vec2 along = e.to - e.from;
-    const double ratio = norm(along) / thickness_at(edges, e, e.from + 0.5 * along);
-    if (!(ratio > long_from)) continue;
-    const int pieces = static_cast<int>(std::min<double>(most, std::max(2.0, std::round(ratio))));
-    for (int k = 1; k < pieces; ++k) {
-      const double fraction = static_cast<double>(k) / pieces;
-      e.add({fraction, e.from + fraction * along}, 0.5 / pieces);
+  std::vector<Across> wanted;
+  for (std::size_t k = 0; k < edges.size(); ++k) {
+    const double length = norm(edges[k].to - edges[k].from);
+    for (const Node& node : edges[k].nodes) {
+      const Across across = across_from(edges, k, node.at);
+      if (length > long_from * across.distance) wanted.push_back(across);
     }
   }
+  for (const Across& w : wanted) {
+    Edge& e = edges[w.edge];
+    const Vec2 along = e.to - e.from;
+    e.add({w.fraction, e.from + w.fraction * along},
+          std::max(shortest, 0.5 * w.distance / norm(along)));
+  }
+}
+
+std::size_t corners_of(const std::vector<Edge>& edges) {
+  std::size_t corners = edges.size();
+  for (const Edge& e : edges) corners += e.nodes.size();
+  return corners;
 }
 
 }  // namespace
 
-void add_t_nodes(PolygonSet& set, double tolerance, const std::function<bool(std::size_t)>& bends) {
+void add_t_nodes(PolygonSet& set, double tolerance, std::size_t most,
+                 const std::function<bool(std::size_t)>& bends) {
   const Cells cells(set);
   for (std::size_t i = 0; i < set.blocks.size(); ++i) {
     if (!bends(i)) continue;
@@ -163,7 +190,10 @@ void add_t_nodes(PolygonSet& set, double tolerance, const std::function<bool(std
           edges.back().add(node);
       }
     }
-    divide_long_edges(edges);
+    if (corners_of(edges) > most) continue;
+    std::vector<Edge> with_partners = edges;
+    add_partners(with_partners);
+    if (corners_of(with_partners) <= most) edges = std::move(with_partners);
     auto edge = edges.begin();
     for (std::size_t r = 0; r < block.rings.size(); ++r) {
       Ring ring;

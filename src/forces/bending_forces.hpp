@@ -5,8 +5,9 @@
 
 namespace edda {
 
-/// Adds the elastic forces of the blocks [begin, end) on their modes, and the couple that goes with
-/// them on their nodes. locked: g0, [modes] N in the frame of each block; or empty.
+/// Adds the elastic forces of the blocks [begin, end), which are whole groups (bent_state.hpp), on
+/// their modes, and the couple that goes with them on their nodes. locked: g0, [modes] N in the
+/// frame of each block; or empty.
 void add_bending(NodalForces& forces, const BlockSet& blocks, const State& state,
                  const ModeVectors& locked, std::size_t begin, std::size_t end);
 

@@ -174,53 +174,42 @@ EquationMatrix boundary_of_modes(const StiffnessInputs& w, std::size_t i, const 
   return m;
 }
 
-/// K of the modes of a block with these stiffnesses of its bendings and, along each mode, beside
-/// them.
-EquationMatrix of_modes(const BlockSet& b, std::size_t i, const std::array<double, bendings>& along,
+/// A matrix of the modes of a block: `beside` on the diagonal, and e_b e_b^T times more[b].
+EquationMatrix of_modes(const BlockSet& b, std::size_t i, const std::array<double, bendings>& more,
                         const Eigen::VectorXd& beside) {
-  const Bending& bending = b.bending;
-  const std::size_t first = bending.begin[i];
-  EquationMatrix axes(beside.size(), static_cast<Eigen::Index>(bendings));
-  Eigen::Matrix<double, static_cast<int>(bendings), 1> kappa;
+  const BlockModes modes = b.modes(i);
+  EquationMatrix matrix = beside.asDiagonal();
   for (std::size_t k = 0; k < bendings; ++k) {
-    const auto column = static_cast<Eigen::Index>(k);
-    kappa[column] = along[k];
-    for (Eigen::Index c = 0; c < beside.size(); ++c) {
-      const Vec2 e = bending.axis[k][first + static_cast<std::size_t>(c / 2)];
-      axes(c, column) = c % 2 == 0 ? e.x : e.y;
+    Eigen::VectorXd e(beside.size());
+    for (std::size_t a = 0; a < modes.count; ++a) {
+      const Vec2 of_mode = b.bending.axis[k][modes[a]];
+      e.segment<2>(static_cast<Eigen::Index>(2 * a)) << of_mode.x, of_mode.y;
     }
+    matrix += more[k] * e * e.transpose();
   }
-  const EquationMatrix rest =
-      EquationMatrix::Identity(beside.size(), beside.size()) - axes * axes.transpose();
-  return rest * beside.asDiagonal() * rest + axes * kappa.asDiagonal() * axes.transpose();
-}
-
-/// Values of block i, times a factor.
-template <class Values>
-std::array<double, bendings> at_block(const Values& values, std::size_t i, double factor) {
-  std::array<double, bendings> at;
-  for (std::size_t k = 0; k < bendings; ++k) at[k] = factor * values[k][i];
-  return at;
+  return matrix;
 }
 
 /// Adds what the modes of a block that bends have of their own to its equations.
 void add_modes(BlockEquations<EquationMatrix>& k, const StiffnessInputs& w, std::size_t i) {
   const Bending& bending = w.blocks.bending;
-  const std::size_t first = bending.begin[i], count = bending.modes_of(i);
+  const BlockModes modes = w.blocks.modes(i);
   const auto from = static_cast<Eigen::Index>(degrees_of_freedom),
-             size = static_cast<Eigen::Index>(2 * count);
+             size = static_cast<Eigen::Index>(2 * modes.count);
   const double mass = 1.0 / w.masses.mode_inverse[i];
   Eigen::VectorXd beside(size);
   for (Eigen::Index c = 0; c < size; ++c)
-    beside[c] = bending.stiffness[first + static_cast<std::size_t>(c / 2)];
+    beside[c] = bending.stiffness[modes[static_cast<std::size_t>(c / 2)]];
   k.mass.bottomRightCorner(size, size).diagonal().setConstant(mass);
-  k.elastic.block(from, from, size, size) =
-      of_modes(w.blocks, i, at_block(bending.kappa, i, 1.0), beside);
+  std::array<double, bendings> more{};
+  for (std::size_t b = 0; b < bendings; ++b) more[b] = -bending.less[b][i];
+  k.elastic.block(from, from, size, size) = of_modes(w.blocks, i, more, beside);
   const auto& damping = w.masses.mode_damping;
   if (damping[0].empty()) return;
-  beside.setConstant(mass * damping[bendings][i]);
-  k.viscous.block(from, from, size, size) =
-      of_modes(w.blocks, i, at_block(damping, i, mass), beside);
+  const double rest = damping[bendings][i];
+  beside.setConstant(mass * rest);
+  for (std::size_t b = 0; b < bendings; ++b) more[b] = mass * (damping[b][i] - rest);
+  k.viscous.block(from, from, size, size) = of_modes(w.blocks, i, more, beside);
 }
 
 /// A matrix of the nodes as that of the whole block.

@@ -192,8 +192,8 @@ void gather_own_forces(NodalForces& forces, const BlockSet& b, const State& stat
                        values_of(forces.y), begin, end);
   }
   if (b.bending.any()) {
-    const auto first = static_cast<std::ptrdiff_t>(b.bending.begin[begin]),
-               last = static_cast<std::ptrdiff_t>(b.bending.begin[end]);
+    const auto first = static_cast<std::ptrdiff_t>(b.bending.begin_of_group(begin)),
+               last = static_cast<std::ptrdiff_t>(b.bending.begin_of_group(end));
     for (std::vector<double>* of : {&forces.modes.x, &forces.modes.y})
       std::fill(of->begin() + first, of->begin() + last, 0.0);
   }

@@ -27,8 +27,9 @@ EDDA_INLINE void advance_one(const NodeView& n, const Kick& kick, std::size_t i)
 }
 
 EDDA_VECTOR void advance_nodes(NodeView n, OneKick kicks, std::size_t begin, std::size_t end) {
+  const Kick kick = kicks.kick;
 #pragma omp simd
-  for (std::size_t i = begin; i < end; ++i) advance_one(n, kicks.of(i), i);
+  for (std::size_t i = begin; i < end; ++i) advance_one(n, kick, i);
 }
 EDDA_VECTOR void advance_nodes(NodeView n, OwnKicks kicks, std::size_t begin, std::size_t end) {
 #pragma omp simd
@@ -169,13 +170,46 @@ ModeLeap of_modes(const Leap& leap, ModeDamping* damping) {
           leap.old_vy, damping};
 }
 
+namespace {
+
+/// The kicks of the group of blocks from i on.
+void fill_kick(GroupKick& kick, const State& s, const Leap& leap, const Kick& of_all,
+               std::size_t i) {
+  kick.h_new = leap.h_new;
+  const std::size_t many = std::min(group_size, leap.blocks.size() - i);
+  const bool all =
+      leap.damping.kicks == nullptr && next_spared(leap.damping, i, i + many) == i + many;
+  for (std::size_t at = 0; at < many; ++at) {
+    const Kick own = all ? of_all : kick_of_block(leap, i + at);
+    kick.keeps[at] = own.keeps;
+    kick.h[at] = own.h;
+    kick.local[at] = own.local;
+    kick.by_mass[at] = leap.damping.mass_of(i + at);
+    kick.moves[at] = s.alive[i + at] != 0 ? 1.0 : 0.0;
+  }
+}
+
+/// Calls body(kicks, begin, end) for parts of the blocks [begin, end), with those of their groups.
+template <class Body>
+void with_kicks(const State& s, const Leap& leap, std::size_t begin, std::size_t end, Body body) {
+  const Kick of_all = kick_of(leap, leap.h_new);
+  for (std::size_t from = begin; from < end; from += blocks_at_once) {
+    const std::size_t last = std::min(end, from + blocks_at_once);
+    std::array<GroupKick, blocks_at_once / group_size> kicks;
+    for (std::size_t i = from; i < last; i += group_size)
+      fill_kick(kicks[(i - from) / group_size], s, leap, of_all, i);
+    body(kicks.data(), from, last);
+  }
+}
+
+}  // namespace
+
 void advance_modes(State& s, const Leap& leap, ModeDamping* damping, Nodes& fx, Nodes& fy,
                    std::size_t begin, std::size_t end) {
   const ModeLeap modes = of_modes(leap, damping);
-  for (std::size_t i = begin; i < end; ++i) {
-    if (leap.blocks.bending.modes_of(i) > 0 && s.alive[i] != 0)
-      advance_modes(s, modes, kick_of_block(leap, i), i, fx, fy);
-  }
+  with_kicks(s, leap, begin, end, [&](const GroupKick* kicks, std::size_t from, std::size_t last) {
+    advance_modes(s, modes, kicks, fx, fy, from, last);
+  });
 }
 
 void add_and_advance(State& s, const Leap& leap, const ForcesToAdd& forces, std::size_t begin,
@@ -204,26 +238,19 @@ void advance(State& s, const Leap& leap) {
 
 namespace {
 
-/// Dissipation of the modes of block i.
-double dissipated_by_modes(const State& s, const Leap& leap, const ModeDamping* strain,
-                           std::size_t i) {
+/// Adds what all damping of the modes has dissipated.
+void account_modes(const State& s, const Leap& leap, DampingWork& work, const ModeDamping* modes) {
   const BlockSet& b = leap.blocks;
-  const BlockModes modes = b.modes(i);
-  double work = 0.0;
-  const double local = local_damping_of(leap.damping, i), by_mass = leap.damping.mass_of(i);
-  for (std::size_t m = modes.first; m < modes.first + modes.count; ++m) {
-    const Vec2 before = (*leap.old_rate)[m], after = s.bend_rate[m];
-    const Vec2 moved = half_way(before, after, leap.h_old, leap.h_new);
-    work -= dot(local_damping((*leap.force_modes)[m], before, local), moved);
-    work += by_mass / leap.masses.mode_inverse[i] * dot(0.5 * (before + after), moved);
-  }
-  if (strain == nullptr || strain->couple.empty()) return work;
-  const NodeVectors before = vectors_of(leap.old_vx, leap.old_vy, i),
-                    after = vectors_of(s.vx, s.vy, i);
-  const NodeVectors moved = (0.5 * leap.h_old) * before + (0.5 * leap.h_new) * after;
-  const NodeVectors at_n = vectors_of(s.x, s.y, i) - leap.h_new * after;
-  return work + mode_dissipation(*strain, of_modes(leap, nullptr), s, leap.h_old, leap.h_new,
-                                 rotation(gradient_of(b, at_n, i)), moved, i);
+  const bool strain = modes != nullptr && !modes->couple.empty();
+  if (!strain && !leap.damping.any_of_nodes()) return;
+  // What damped is read alone.
+  const ModeLeap of = of_modes(leap, strain ? const_cast<ModeDamping*>(modes) : nullptr);
+  parallel_blocks(b.size(), 10, [&](std::size_t, std::size_t begin, std::size_t end) {
+    with_kicks(s, leap, begin, end,
+               [&](const GroupKick* kicks, std::size_t from, std::size_t last) {
+                 account_modes(s, of, kicks, leap.h_old, work.joules.data(), from, last);
+               });
+  });
 }
 
 }  // namespace
@@ -231,12 +258,7 @@ double dissipated_by_modes(const State& s, const Leap& leap, const ModeDamping* 
 void account_damping(const State& s, const Leap& leap, DampingWork& work,
                      const ModeDamping* modes) {
   const BlockSet& b = leap.blocks;
-  if (leap.force_modes != nullptr) {
-    parallel_for(b.size(), [&](std::size_t i) {
-      if (b.bending.modes_of(i) > 0 && s.alive[i] != 0)
-        work.joules[i] += dissipated_by_modes(s, leap, modes, i);
-    });
-  }
+  if (leap.force_modes != nullptr) account_modes(s, leap, work, modes);
   const StepDamping& damping = leap.damping;
   const Nodes &old_vx = leap.old_vx, &old_vy = leap.old_vy;
   const double h_old = leap.h_old, h_new = leap.h_new;
@@ -245,7 +267,7 @@ void account_damping(const State& s, const Leap& leap, DampingWork& work,
     parallel_for(
         b.size(), [&](std::size_t i) { work.joules[i] += of_strain[i]; }, 1);
   }
-  if (damping.mass == 0.0 && damping.local == 0.0 && damping.kicks == nullptr) return;
+  if (!damping.any_of_nodes()) return;
   if (leap.masses.kind == MassKind::consistent) {
     parallel_for(b.size(), [&](std::size_t i) {
       if (!is_free(b, s, i)) return;
@@ -304,10 +326,10 @@ void start_velocities(State& s, const BlockSet& b, const Masses& masses, const N
   parallel_for(b.size(), [&](std::size_t i) {
     if (b.fixed[i] || !s.alive[i]) return;
     const BlockModes modes = b.modes(i);
-    for (std::size_t m = modes.first; m < modes.first + modes.count && force_modes.size() > 0;
-         ++m) {
-      const Vec2 a = masses.mode_inverse[i] * force_modes[m] - mass_damping * s.bend_rate[m];
-      s.bend_rate.add(m, -0.5 * h * a);
+    for (std::size_t a = 0; a < modes.count && force_modes.size() > 0; ++a) {
+      const std::size_t m = modes[a];
+      const Vec2 faster = masses.mode_inverse[i] * force_modes[m] - mass_damping * s.bend_rate[m];
+      s.bend_rate.add(m, -0.5 * h * faster);
     }
     const NodeVectors a = accelerations(masses, i, vectors_of(force_x, force_y, i));
     add(-0.5 * h * (a - mass_damping * vectors_of(s.vx, s.vy, i)), s.vx, s.vy, i);

@@ -23,6 +23,8 @@ struct StepDamping {
   /// Each block's own a, set for this step (set_kicks()); null: all have the same.
   const BlockKicks* kicks = nullptr;
 
+  /// Whether there is any in proportion to mass, or local damping.
+  bool any_of_nodes() const { return mass != 0.0 || local != 0.0 || kicks != nullptr; }
   double mass_of(std::size_t i) const { return kicks == nullptr ? mass : kicks->mass[i]; }
 };
 

@@ -32,10 +32,22 @@ struct ModeLeap {
   ModeDamping* damping;          ///< null: none is damped
 };
 
-/// v_{n+1/2} of the modes of block i, their positions at n + 1, and the couple of the damping,
-/// which is added to the forces fx, fy on its nodes. The nodes must still be at n.
-void advance_modes(State& state, const ModeLeap& leap, const Kick& kick, std::size_t i, Nodes& fx,
-                   Nodes& fy);
+/// The kick of each block of a group, its damping a in proportion to mass (1/s), and whether it
+/// moves (1 or 0); 0 beyond the last block.
+struct GroupKick {
+  alignas(64) double keeps[group_size] = {};
+  alignas(64) double h[group_size] = {};
+  alignas(64) double local[group_size] = {};
+  alignas(64) double by_mass[group_size] = {};
+  alignas(64) double moves[group_size] = {};
+  double h_new = 0.0;
+};
+
+/// v_{n+1/2} of the modes of the blocks [begin, end), which are whole groups with these kicks,
+/// their positions at n + 1, and the couples of the damping, which are added to the forces fx, fy
+/// on the nodes. The nodes must still be at n.
+void advance_modes(State& state, const ModeLeap& leap, const GroupKick* kicks, Nodes& fx, Nodes& fy,
+                   std::size_t begin, std::size_t end);
 
 /// Takes the couple of the last step back from the forces on the nodes, which must be at n.
 void take_back_couples(const ModeDamping& damping, const BlockSet& blocks, const State& state,
@@ -46,10 +58,9 @@ void take_back_couples(const ModeDamping& damping, const BlockSet& blocks, const
 double push_modes(State& state, const ModeLeap& leap, const Kick& kick, const Rotation& before,
                   const ModesOfBlock& force, std::size_t i);
 
-/// What the damping of the modes of block i has dissipated over (x_{n+1} - x_{n-1})/2, J: by_nodes
-/// of its nodes (m), and the velocities of the modes before and after n.
-double mode_dissipation(const ModeDamping& damping, const ModeLeap& leap, const State& state,
-                        double h_old, double h_new, const Rotation& at_n,
-                        const NodeVectors& by_nodes, std::size_t i);
+/// Adds to joules, [nb], what all damping of the modes of the blocks [begin, end) has dissipated in
+/// the step just made, over (x_{n+1} - x_{n-1})/2.
+void account_modes(const State& state, const ModeLeap& leap, const GroupKick* kicks, double h_old,
+                   double* joules, std::size_t begin, std::size_t end);
 
 }  // namespace edda

@@ -158,8 +158,9 @@ EDDA_INLINE void kick_and_move(const BlocksView& b, const FreeForces& f, const K
 
 EDDA_VECTOR void add_kick_and_damp_all(BlocksView b, FreeForces f, OneKick kicks, std::size_t begin,
                                        std::size_t end) {
+  const Kick kick = kicks.kick;
 #pragma omp simd
-  for (std::size_t i = begin; i < end; ++i) kick_and_move(b, f, kicks.of(i), i);
+  for (std::size_t i = begin; i < end; ++i) kick_and_move(b, f, kick, i);
 }
 EDDA_VECTOR void add_kick_and_damp_all(BlocksView b, FreeForces f, OwnKicks kicks,
                                        std::size_t begin, std::size_t end) {

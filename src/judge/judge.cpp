@@ -77,7 +77,7 @@ bool Judge::look(Simulation& sim) {
   bool rest = complete, found = complete;
   for (std::size_t i = 0; i < rests_.size(); ++i) {
     if (!is_free(sim.scene->blocks, sim.motion.state, i)) continue;
-    if (!left_out_.empty() && left_out_[i] != 0) continue;
+    if (!counts_in_verdicts(sim, i) || (!left_out_.empty() && left_out_[i] != 0)) continue;
     ++counted;
     if (rests_[i] != 0) continue;
     rest = false;
@@ -155,7 +155,7 @@ bool Judge::fits(const Simulation& sim) const {
     return !set.blocks.empty() && set.blocks.back() < nb &&
            std::is_sorted(set.blocks.begin(), set.blocks.end());
   };
-  return rests_.size() == nb && motion_.fits(nb) && slowing_.fits(nb) &&
+  return rests_.size() == nb && motion_.fits(sim.scene->blocks) && slowing_.fits(nb) &&
          std::all_of(moved_.begin(), moved_.end(), of_model) &&
          std::all_of(gone_.begin(), gone_.end(), of_model);
 }
@@ -163,7 +163,9 @@ bool Judge::fits(const Simulation& sim) const {
 bool Judge::all_left(const Simulation& sim) const {
   if (left_.empty()) return false;
   for (std::size_t i = 0; i < left_.size(); ++i) {
-    if (is_free(sim.scene->blocks, sim.motion.state, i) && left_[i] == 0) return false;
+    if (is_free(sim.scene->blocks, sim.motion.state, i) && counts_in_verdicts(sim, i) &&
+        left_[i] == 0)
+      return false;
   }
   return true;
 }
@@ -171,7 +173,7 @@ bool Judge::all_left(const Simulation& sim) const {
 Furthest Judge::furthest(const Simulation& sim) const {
   Furthest most;
   for (Id i = 0; i < sim.scene->blocks.size(); ++i) {
-    if (!is_free(sim.scene->blocks, sim.motion.state, i)) continue;
+    if (!is_free(sim.scene->blocks, sim.motion.state, i) || !counts_in_verdicts(sim, i)) continue;
     if (!left_out_.empty() && left_out_[i] != 0) continue;
     const double u = motion_.moved_from_start(sim, i);
     if (u > most.value) most = {u, i};

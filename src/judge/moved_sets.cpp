@@ -109,9 +109,14 @@ void keep_outer(std::vector<MovedSet>& sets, std::size_t blocks) {
 
 }  // namespace
 
+bool counts_in_verdicts(const Simulation& sim, std::size_t i) {
+  return sim.control.sliver_most.empty() || !(sim.control.sliver_most[i] > 1.0);
+}
+
 RelativeMotion::RelativeMotion(const Simulation& sim)
     : x_(sim.motion.state.x),
       y_(sim.motion.state.y),
+      bend_(sim.motion.state.bend),
       ground_(sim.attached.ground.shift),
       shift_(sim.attached.springs.shift) {
   constexpr double near = 1e-3;  // of the smaller block: a gap across which blocks are neighbours
@@ -152,9 +157,11 @@ RelativeMotion::RelativeMotion(const Simulation& sim)
   apart_ = unsupported(sim, small, large);
 }
 
-bool RelativeMotion::fits(std::size_t blocks) const {
+bool RelativeMotion::fits(const BlockSet& b) const {
+  const std::size_t blocks = b.size();
   const auto below = [blocks](Id i) { return i < blocks; };
   return x_[0].size() == blocks && y_[0].size() == blocks && apart_.size() == blocks &&
+         bend_.x.size() == b.bending.modes() && bend_.y.size() == b.bending.modes() &&
          small_.size() == large_.size() && std::all_of(small_.begin(), small_.end(), below) &&
          std::all_of(large_.begin(), large_.end(), below);
 }
@@ -166,7 +173,8 @@ double RelativeMotion::size_of(const Simulation& sim, Id i) const {
 }
 
 /// With F = dx/dX of the larger block, now and at the start: x' - x of the corners of the smaller
-/// one, x = c + F F_0^-1 (x_0 - c_0).
+/// one, x = c + F F_0^-1 (x_0 - d_0 - c_0) + d, with the deviation d of the nearest point of the
+/// larger block's boundary from its affine motion.
 double RelativeMotion::moved(const Simulation& sim, const Pair& pair) const {
   const BlockSet& b = sim.scene->blocks;
   const State& s = sim.motion.state;
@@ -179,11 +187,47 @@ double RelativeMotion::moved(const Simulation& sim, const Pair& pair) const {
   const Vec2 c = centroid(s.x, s.y, pair.large), c0 = centroid(x_, y_, pair.large);
   double most = 0.0;
   for (Id v = b.vertex_begin[pair.small]; v < b.vertex_begin[pair.small + 1]; ++v) {
-    const Vec2 arm = vertex_at(b, x_, y_, v) - c0;
-    const Vec2 carried = c + Vec2{g.xx * arm.x + g.xy * arm.y, g.yx * arm.x + g.yy * arm.y};
-    most = std::max(most, norm(vertex_at(b, s.x, s.y, v) - carried));
+    const Vec2 start = corner_at_start(b, v);
+    const Deviation bent = deviation_beside(sim, pair.large, start);
+    const Vec2 arm = start - bent.then - c0;
+    const Vec2 carried =
+        c + Vec2{g.xx * arm.x + g.xy * arm.y, g.yx * arm.x + g.yy * arm.y} + bent.now;
+    most = std::max(most, norm(corner_now(sim, v) - carried));
   }
   return most;
+}
+
+RelativeMotion::Deviation RelativeMotion::deviation_beside(const Simulation& sim, Id block,
+                                                           Vec2 p) const {
+  const BlockSet& b = sim.scene->blocks;
+  const BlockModes modes = b.modes(block);
+  if (modes.count == 0) return {};
+  const Id first = b.vertex_begin[block], last = b.vertex_begin[block + 1];
+  double nearest = std::numeric_limits<double>::infinity(), part = 0.0;
+  Id edge = first;
+  for (Id e = first; e < last; ++e) {
+    const Vec2 a = corner_at_start(b, e), along = corner_at_start(b, b.next[e]) - a;
+    const double xi = std::clamp(dot(p - a, along) / dot(along, along), 0.0, 1.0);
+    const double distance = norm(p - a - xi * along);
+    if (!(distance < nearest)) continue;
+    nearest = distance;
+    edge = e;
+    part = xi;
+  }
+  const auto between = [&](const ModeVectors& bend) {
+    return (1.0 - part) * modes.at(bend, edge - first) +
+           part * modes.at(bend, b.next[edge] - first);
+  };
+  return {between(bend_), between(sim.motion.state.bend)};
+}
+
+Vec2 RelativeMotion::corner_at_start(const BlockSet& b, Id v) const {
+  return corner_at(b, x_, y_, bend_, v);
+}
+
+Vec2 RelativeMotion::corner_now(const Simulation& sim, Id v) const {
+  const State& s = sim.motion.state;
+  return corner_at(sim.scene->blocks, s.x, s.y, s.bend, v);
 }
 
 bool RelativeMotion::supports_have_moved(const Simulation& sim) const {
@@ -207,10 +251,9 @@ double RelativeMotion::moved_from_support(const Simulation& sim, Id i) const {
 
 double RelativeMotion::moved_with(const Simulation& sim, Id i, Vec2 carried) const {
   const BlockSet& b = sim.scene->blocks;
-  const State& s = sim.motion.state;
   double most = 0.0;
   for (Id v = b.vertex_begin[i]; v < b.vertex_begin[i + 1]; ++v)
-    most = std::max(most, norm(vertex_at(b, s.x, s.y, v) - vertex_at(b, x_, y_, v) - carried));
+    most = std::max(most, norm(corner_now(sim, v) - corner_at_start(b, v) - carried));
   return most;
 }
 
@@ -219,7 +262,7 @@ std::vector<MovedSet> RelativeMotion::sets(const Simulation& sim, double least,
   const BlockSet& b = sim.scene->blocks;
   const State& s = sim.motion.state;
   const auto counts = [&](Id i) {
-    return s.alive[i] != 0 && (left_out.empty() || left_out[i] == 0);
+    return s.alive[i] != 0 && counts_in_verdicts(sim, i) && (left_out.empty() || left_out[i] == 0);
   };
   struct Link {
     double distance;

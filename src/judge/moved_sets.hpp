@@ -23,15 +23,20 @@ struct MovedSet {
   double part = 0.0;       ///< that distance over the size of the largest of them
 };
 
+/// Whether block i counts in verdicts: a sliver that the cut could not merge, and whose inertia is
+/// raised, does not, since its motion is not that of rock.
+bool counts_in_verdicts(const Simulation& sim, std::size_t i);
+
 /// Relative motion since the state in which this is created.
 ///
 /// Two blocks that touch then have moved by D, the largest displacement of a corner of the smaller
-/// block as seen from the larger one, whose motion is affine; a block has also moved by D from
-/// where it was, as seen from the ground or from a boundary that holds it. Blocks are joined in the
-/// order of their D (single linkage). Where a set S is joined at D to a larger one that contains
-/// all its neighbours, S has moved by the part D/L of its size, L = sqrt(area) of the largest block
-/// of S. If S has other neighbours, these may have carried it along, and it is judged together with
-/// them. A set that touched nothing that anything supports was to land: a tenth of D counts.
+/// block as seen from the larger one, which carries it by its affine motion and by what the
+/// nearest point of its boundary deviates from that; a block has also moved by D from where it was,
+/// as seen from the ground or from a boundary that holds it. Blocks are joined in the order of
+/// their D (single linkage). Where a set S is joined at D to a larger one that contains all its
+/// neighbours, S has moved by the part D/L of its size, L = sqrt(area) of the largest block of S.
+/// If S has other neighbours, these may have carried it along, and it is judged together with them.
+/// A set that touched nothing that anything supports was to land: a tenth of D counts.
 class RelativeMotion {
  public:
   RelativeMotion() = default;
@@ -48,7 +53,7 @@ class RelativeMotion {
   /// Largest displacement of a corner of block i as seen from the ground, m.
   double moved_from_start(const Simulation& sim, Id i) const;
 
-  bool fits(std::size_t blocks) const;
+  bool fits(const BlockSet& blocks) const;
   /// Names every field that a checkpoint contains, after the prefix `of`.
   template <class Archive>
   void list(Archive& a, const std::string& of);
@@ -63,7 +68,17 @@ class RelativeMotion {
   double moved_from_support(const Simulation& sim, Id i) const;
   double size_of(const Simulation& sim, Id i) const;
 
+  /// Of a point of a block's boundary from its affine motion, at the start and now, m.
+  struct Deviation {
+    Vec2 then, now;
+  };
+  /// Where the boundary of a block is nearest to p at the start.
+  Deviation deviation_beside(const Simulation& sim, Id block, Vec2 p) const;
+  Vec2 corner_at_start(const BlockSet& blocks, Id v) const;
+  Vec2 corner_now(const Simulation& sim, Id v) const;
+
   Nodes x_, y_;                      ///< [nodes][nb] m, at the start
+  ModeVectors bend_;                 ///< [modes] m, then
   Vec2 ground_;                      ///< m, displacement of the ground then
   std::vector<Vec2> shift_;          ///< [boundaries] m, that of each boundary then
   std::vector<Id> small_, large_;    ///< [pairs]
@@ -74,6 +89,8 @@ template <class Archive>
 void RelativeMotion::list(Archive& a, const std::string& of) {
   a(of + "moved.x", x_);
   a(of + "moved.y", y_);
+  a(of + "moved.bend_x", bend_.x);
+  a(of + "moved.bend_y", bend_.y);
   a(of + "moved.ground_x", ground_.x);
   a(of + "moved.ground_y", ground_.y);
   list_points(a, of + "moved.shift", shift_);

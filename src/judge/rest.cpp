@@ -138,6 +138,15 @@ void SlowingDown::look(const Simulation& sim) {
 
 namespace {
 
+/// Speed of the corners of block i beside that of its nodes, m/s: the root of its mean square by
+/// their masses, since the shapes of the modes are orthonormal.
+double bending_speed(const BlockSet& b, const State& s, std::size_t i) {
+  const BlockModes modes = b.modes(i);
+  if (modes.count == 0) return 0.0;
+  return std::sqrt(mode_product(modes, s.bend_rate, s.bend_rate) /
+                   static_cast<double>(modes.corners));
+}
+
 /// As blocks_at_rest(), under the resultant `force` (N) and pressed by `pressed` (N).
 bool is_at_rest(const Simulation& sim, const LoadsNow& acting, const SlowingDown* slowing,
                 std::size_t i, double force, double pressed) {
@@ -151,8 +160,8 @@ bool is_at_rest(const Simulation& sim, const LoadsNow& acting, const SlowingDown
   if (stiff &&
       (slowing->is_still(i) || (slowing->to_come(i) <= most && force <= balanced_part * weight)))
     return true;
-  const double speed =
-      norm(centroid(s.vx, s.vy, i)) * std::sqrt(inertia_of(sim.motion.masses, i) / b.mass[i]);
+  const double speed = (norm(centroid(s.vx, s.vy, i)) + bending_speed(b, s, i)) *
+                       std::sqrt(inertia_of(sim.motion.masses, i) / b.mass[i]);
   const double time = rest_time(size_of(sim, i), own);
   return speed * time + 0.5 * force / b.mass[i] * time * time <= most;
 }

@@ -276,7 +276,7 @@ void Simulation::add_monitor(const std::string& name, Point point) {
           "move it into one (edda cut draws them)");
   }
   sim.scene.edit().model.monitors.push_back({name, {point.x, point.y}, {}});
-  impl_->prepared.monitors.push_back({name, *block, weights_at(sim.scene->blocks, *block, p)});
+  impl_->prepared.monitors.push_back(point_of_block(name, sim.scene->blocks, *block, p));
 }
 
 std::vector<std::string> Simulation::monitors() const {

@@ -44,6 +44,7 @@ struct Material {
   double poisson = 0.0;
   Where where;
   std::optional<RockStrength> strength{};
+  BlockDeformation deformation = BlockDeformation::automatic;
   double damping =
       0.5;  ///< strain damping, as a fraction of critical in the lowest mode of a block
 };
@@ -270,7 +271,7 @@ struct Model {
   Vec2 gravity{0.0, -9.81};  ///< m/s2
   Plane plane = Plane::strain;
   double thickness = 1.0;  ///< m
-  BlockDeformation deformation = BlockDeformation::uniform;
+  BlockDeformation deformation = BlockDeformation::automatic;
 
   std::vector<Material> materials;
   std::vector<JointLaw> joints;

@@ -14,8 +14,10 @@
 namespace edda {
 
 enum class Method { edda, dda };
-/// How a block deforms: its corners deviate from the uniform strain, or do not.
-enum class BlockDeformation { corners, uniform };
+/// How a block deforms: its corners deviate from the uniform strain, or do not. automatic, of a
+/// material: as the model says; of the model: corners, unless a joint has a restitution, which is
+/// fitted to uniform blocks.
+enum class BlockDeformation { automatic, corners, uniform };
 enum class MassKind { matched, covering, consistent };
 enum class Switching { exact, plain };
 enum class StageEnd { time, equilibrium, collapse };

@@ -2,7 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <utility>
+
 #include "blocks/locate.hpp"
+#include "blocks/mode_weights.hpp"
 #include "step/labels.hpp"
 
 namespace edda {
@@ -15,7 +18,7 @@ MonitorPoint place(const Simulation& sim, const std::string& name, Vec2 point, c
                    const std::string& key, Faults& faults) {
   const Vec2 p = point - sim.scene->blocks.origin;
   const auto block = block_at(sim.scene->model, sim.scene->polygons, sim.scene->blocks, p);
-  if (block) return {name, *block, weights_at(sim.scene->blocks, *block, p)};
+  if (block) return point_of_block(name, sim.scene->blocks, *block, p);
   Fault fault{where, "lies in no block", "move it into one (edda cut draws them)"};
   fault.where.key += key;
   faults.push_back(fault);
@@ -23,6 +26,10 @@ MonitorPoint place(const Simulation& sim, const std::string& name, Vec2 point, c
 }
 
 }  // namespace
+
+MonitorPoint point_of_block(std::string name, const BlockSet& b, std::size_t block, Vec2 point) {
+  return {std::move(name), block, weights_at(b, block, point), mode_weights(b, block, point)};
+}
 
 Result<std::vector<MonitorPoint>> place_monitors(const Simulation& sim) {
   std::vector<MonitorPoint> points;
@@ -82,18 +89,27 @@ std::vector<std::string> border_points(const Simulation& sim) {
   return warnings;
 }
 
-double convergence(const State& s, const ConvergenceLine& line) {
-  const auto length = [&](const Nodes& x, const Nodes& y) {
-    const auto& [a, b] = line.ends;
-    return norm(weighted(b.weight, x, y, b.block) - weighted(a.weight, x, y, a.block));
+double convergence(const BlockSet& blocks, const State& s, const ConvergenceLine& line) {
+  const auto length = [&](const Nodes& x, const Nodes& y, const ModeVectors& bend) {
+    const auto place = [&](const MonitorPoint& m) {
+      return weighted(m.weight, x, y, m.block) + weighted_modes(blocks, m.block, m.modes, bend);
+    };
+    return norm(place(line.ends[1]) - place(line.ends[0]));
   };
-  return length(s.from_x, s.from_y) - length(s.x, s.y);
+  return length(s.from_x, s.from_y, s.from_bend) - length(s.x, s.y, s.bend);
+}
+
+Vec2 displacement_of(const BlockSet& b, const State& s, const MonitorPoint& m) {
+  return displacement_of(s, m.block, m.weight) + weighted_modes(b, m.block, m.modes, s.bend) -
+         weighted_modes(b, m.block, m.modes, s.from_bend);
 }
 
 MonitorReading read_monitor(const Simulation& sim, const Instant& at, const MonitorPoint& m) {
   MonitorReading r;
-  r.displacement = displacement_of(at.state, m.block, m.weight);
-  r.velocity = weighted(m.weight, at.state.vx, at.state.vy, m.block);
+  const BlockSet& b = sim.scene->blocks;
+  r.displacement = displacement_of(b, at.state, m);
+  r.velocity = weighted(m.weight, at.state.vx, at.state.vy, m.block) +
+               weighted_modes(b, m.block, m.modes, at.state.bend_rate);
   r.stress = block_stress(sim, at.state, m.block);
   return r;
 }

@@ -13,8 +13,13 @@ namespace edda {
 struct MonitorPoint {
   std::string name;
   std::size_t block = 0;
-  NodeWeights weight{};  ///< area coordinates in the block
+  NodeWeights weight{};         ///< area coordinates in the block
+  std::vector<double> modes{};  ///< how it follows the modes of the block (mode_weights.hpp)
 };
+
+/// The point of a block that was at `point` (local coordinates) at the start.
+MonitorPoint point_of_block(std::string name, const BlockSet& blocks, std::size_t block,
+                            Vec2 point);
 
 /// The block of every monitor (block_at()). A fault for each that lies in no block.
 Result<std::vector<MonitorPoint>> place_monitors(const Simulation& sim);
@@ -33,7 +38,10 @@ Result<std::vector<ConvergenceLine>> place_convergences(const Simulation& sim);
 std::vector<std::string> border_points(const Simulation& sim);
 
 /// Shortening of the line since the start or the last reset of displacements, m.
-double convergence(const State& state, const ConvergenceLine& line);
+double convergence(const BlockSet& blocks, const State& state, const ConvergenceLine& line);
+
+/// Displacement of the point, m.
+Vec2 displacement_of(const BlockSet& blocks, const State& state, const MonitorPoint& point);
 
 /// Displacement and velocity of the point, and the stress of its block.
 struct MonitorReading {

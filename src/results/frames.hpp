@@ -11,7 +11,7 @@
 
 namespace edda {
 
-/// The cells of every block, made once: a block's motion is affine, so they never change.
+/// The cells of every block, made once: they never change.
 struct BlockCells {
   std::vector<Id> begin;   ///< [nb + 1] first cell of each block
   std::vector<Id> end;     ///< of each cell in `corner`

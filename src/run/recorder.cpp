@@ -109,7 +109,7 @@ Trouble Recorder::row(const Simulation& sim, const Instant& at,
     csv.add(r.displacement.x).add(r.displacement.y).add(r.velocity.x).add(r.velocity.y);
     csv.add(r.stress.xx).add(r.stress.yy).add(r.stress.xy);
   }
-  for (const ConvergenceLine& line : lines) csv.add(convergence(at.state, line));
+  for (const ConvergenceLine& line : lines) csv.add(convergence(sim.scene->blocks, at.state, line));
   for (const double v : {l.kinetic, l.strain, l.contact, l.gravity, l.friction, l.damping,
                          l.fracture, l.external, l.step_change, l.error, unbalanced, l.transfer}) {
     csv.add(v);

@@ -61,7 +61,7 @@ Result<Scene> build_scene(Model given, BlockOrder order, const Stepper& stepper)
     scene.polygons.reversed = true;
   }
   const Solver& solver = scene.model.solver;
-  add_t_nodes(scene.polygons, t_node_tolerance(scene.model, scene.polygons),
+  add_t_nodes(scene.polygons, t_node_tolerance(scene.model, scene.polygons), most_corners_that_bend,
               [&](std::size_t i) { return may_bend(scene.model, scene.polygons.blocks[i]); });
   BlockSet& blocks = scene.blocks;
   blocks = build_blocks(scene.model, scene.polygons);
@@ -73,7 +73,7 @@ Result<Scene> build_scene(Model given, BlockOrder order, const Stepper& stepper)
   }
   scene.displacement_limit = largest_displacement(blocks, solver.max_displacement_ratio);
   scene.base_reach =
-      std::max(0.05 * median_edge(blocks), stepper.least_reach * scene.displacement_limit);
+      std::max(0.04 * median_edge(blocks), stepper.least_reach * scene.displacement_limit);
   scene.smallest_half_width = *std::min_element(blocks.inradius.begin(), blocks.inradius.end());
   return scene;
 }

@@ -45,7 +45,8 @@ void split_jump(Simulation& sim) {
     const NodeVectors force = vectors_of(jump.x, jump.y, i);
     if (!is_free(blocks, state, i)) continue;
     const BlockModes modes = blocks.modes(i);
-    for (std::size_t m = modes.first; m < modes.first + modes.count; ++m) {
+    for (std::size_t a = 0; a < modes.count; ++a) {
+      const std::size_t m = modes[a];
       const double per = sim.motion.masses.mode_inverse[i];
       rate.add(m, (-0.5 * sim.control.step_before * per) * jump.modes[m]);
       any = any || jump.modes[m] != Vec2{};

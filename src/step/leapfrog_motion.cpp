@@ -15,8 +15,8 @@ double energy_of_step_change(const State& s, const Leap& leap) {
     const NodeVectors change = vectors_of(s.vx, s.vy, i) - vectors_of(leap.old_vx, leap.old_vy, i);
     double square = mass_product(leap.masses, i, change, change);
     const BlockModes modes = b.modes(i);
-    for (std::size_t m = modes.first; m < modes.first + modes.count; ++m) {
-      const Vec2 of_mode = s.bend_rate[m] - (*leap.old_rate)[m];
+    for (std::size_t a = 0; a < modes.count; ++a) {
+      const Vec2 of_mode = s.bend_rate[modes[a]] - (*leap.old_rate)[modes[a]];
       square += dot(of_mode, of_mode) / leap.masses.mode_inverse[i];
     }
     return square;

@@ -19,11 +19,12 @@ double load_work(const Simulation& sim, const LoadsNow& now, const std::vector<d
     if (!is_free(sim.scene->blocks, sim.motion.state, i)) return 0.0;
     const BlockModes modes = sim.scene->blocks.modes(i);
     ModeVectors on_modes;
-    on_modes.assign(modes.count, 0.0);
+    on_modes.assign(group_size * modes.count, 0.0);
     BlockForces f{sim.scene->blocks, i, {}, modes.count > 0 ? &on_modes : nullptr, modes.first};
     add_loads(f, now, x, y);
     double work = dot(f.nodes, moved(i));
-    for (std::size_t a = 0; a < modes.count; ++a) work += dot(on_modes[a], bent(modes.first + a));
+    for (std::size_t a = 0; a < modes.count; ++a)
+      work += dot(on_modes[modes[a] - modes.first], bent(modes[a]));
     return work;
   });
 }

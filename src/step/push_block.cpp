@@ -16,8 +16,8 @@ NodeVectors on_nodes(const BlockSet& b, const EdgeForce& force) {
 ModesOfBlock on_modes(const BlockSet& b, const BlockModes& modes, Id i, const EdgeForce& force) {
   ModesOfBlock on;
   for (std::size_t a = 0; a < modes.count; ++a)
-    on[a] = modes.of(a, force.edge - b.vertex_begin[i]) * force.at_edge +
-            modes.of(a, force.end - b.vertex_begin[i]) * force.at_end;
+    on.set(a, modes.of(a, force.edge - b.vertex_begin[i]) * force.at_edge +
+                  modes.of(a, force.end - b.vertex_begin[i]) * force.at_end);
   return on;
 }
 
@@ -58,7 +58,7 @@ double push_block(const StepTaken& taken, Id i, const EdgeForce& force) {
   NodeVectors on = on_nodes(b, force);
   const BlockModes modes = b.modes(i);
   ModesOfBlock bent;
-  for (std::size_t a = 0; a < modes.count; ++a) bent[a] = s.bend[modes.first + a];
+  for (std::size_t a = 0; a < modes.count; ++a) bent.set(a, s.bend[modes[a]]);
   if (modes.count > 0) on = on + push_modes(taken, i, force);
   NodeVectors dv = taken.kick_of(i) * accelerations(taken.masses, i, on);
   if (taken.strain != nullptr) {
@@ -73,7 +73,7 @@ double push_block(const StepTaken& taken, Id i, const EdgeForce& force) {
     Vec2 moved;
     for (std::size_t k = 0; k < nodes_per_block; ++k) moved += taken.h_new * b.weight[k][v] * dv[k];
     for (std::size_t a = 0; a < modes.count; ++a)
-      moved += modes.of(a, v - b.vertex_begin[i]) * (s.bend[modes.first + a] - bent[a]);
+      moved += modes.of(a, v - b.vertex_begin[i]) * (s.bend[modes[a]] - bent[a]);
     largest2 = std::max(largest2, dot(moved, moved));
   }
   return std::sqrt(largest2);

@@ -108,7 +108,7 @@ void look_at_block(Simulation& sim, const LoadsNow& at_work, std::size_t i, bool
   const Vec2 gravity = sim.scene->model.gravity - at_work.gravity_reduction();
   const BlockModes modes = blocks.modes(i);
   ModeVectors load_on_modes;
-  load_on_modes.assign(modes.count, 0.0);
+  load_on_modes.assign(group_size * modes.count, 0.0);
   BlockForces load{blocks, i, {}, modes.count > 0 ? &load_on_modes : nullptr, modes.first};
   if (at_work.loads != nullptr && at_work.loads->place[i] != no_id)
     add_loads(load, at_work, sim.motion.pose.x1, sim.motion.pose.y1);
@@ -123,9 +123,9 @@ void look_at_block(Simulation& sim, const LoadsNow& at_work, std::size_t i, bool
     sum.inertia[i] += inertia_of_node(sim.motion.masses, k, i) * dot(dx[k], dx[k]);
   }
   for (std::size_t a = 0; a < modes.count; ++a) {
-    const std::size_t m = modes.first + a;
+    const std::size_t m = modes[a];
     const Vec2 at = state.bend[m] - h * state.bend_rate[m], moved = at - estimate.bend[m],
-               on = forces.modes[m] - load_on_modes[a];
+               on = forces.modes[m] - load_on_modes[m - modes.first];
     sum.stiffness[i] -= counts ? dot(moved, on - estimate.on_modes[m]) : 0.0;
     sum.inertia[i] += counts ? dot(moved, moved) / sim.motion.masses.mode_inverse[i] : 0.0;
     estimate.bend.set(m, at);

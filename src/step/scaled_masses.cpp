@@ -76,8 +76,8 @@ void raise_masses(Simulation& sim) {
   }
   for (std::size_t i = 0; i < blocks.size(); ++i) {
     const BlockModes modes = blocks.modes(i);
-    for (std::size_t m = modes.first; m < modes.first + modes.count; ++m)
-      state.bend_rate.set(m, (1.0 / factor[i]) * state.bend_rate[m]);
+    for (std::size_t a = 0; a < modes.count; ++a)
+      state.bend_rate.set(modes[a], (1.0 / factor[i]) * state.bend_rate[modes[a]]);
   }
   sim.accounts.step_change_energy += total_energy(sim) - energy;
 }

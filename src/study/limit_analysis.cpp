@@ -311,7 +311,9 @@ const char* const initial_stress_left_out =
 
 Result<LimitResult> limit_analysis(const Model& given, const LimitOptions& options) {
   Model model = given;
-  model.deformation = BlockDeformation::uniform;  // rigid blocks need no nodes within their edges
+  // Rigid blocks need no nodes within their edges.
+  model.deformation = BlockDeformation::uniform;
+  for (Material& material : model.materials) material.deformation = BlockDeformation::uniform;
   const auto began = std::chrono::steady_clock::now();
   const Fos fos = model.fos.value_or(Fos{});
   if (auto fault = without_limit(model, fos)) return *fault;

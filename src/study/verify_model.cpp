@@ -28,7 +28,7 @@ Result<End> run_to_end(PreparedRun& run, const RunOptions& how) {
   End end;
   end.outcome = outcome.value();
   for (const MonitorPoint& m : run.monitors) {
-    end.displacement.push_back(displacement_of(run.sim.motion.state, m.block, m.weight));
+    end.displacement.push_back(displacement_of(run.sim.scene->blocks, run.sim.motion.state, m));
   }
   return end;
 }

@@ -1,5 +1,5 @@
-// The blocks of the replay page as they lie in the first frame. A block's motion is affine, so
-// that from then on six numbers per block and frame place all its vertices.
+// The blocks of the replay page as they lie in the first frame. A block is placed by its
+// mean deformation, so that from then on six numbers per block and frame place all its vertices.
 #pragma once
 
 #include <array>

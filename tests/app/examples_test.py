@@ -54,6 +54,20 @@ class Examples(Program):
         for closure in ("span.convergence", "height.convergence"):
             self.assertTrue(0 < float(last[closure]) < float(without[closure]), closure)
 
+    def test_tunnel_closes_as_kirsch_says(self):
+        _, folder = self.ran("tunnel-closure")
+        last = self.rows(folder / "stages.csv")[-1]
+        self.assertAlmostEqual(float(last["height.convergence"]) / 22.73e-3, 1, delta=0.015)
+        self.assertAlmostEqual(float(last["span.convergence"]) / 4.19e-3, 1, delta=0.1)
+        _, folder = self.ran("tunnel-closure", "--set", "deformation=uniform", out="uniform")
+        self.assertLess(float(self.rows(folder / "stages.csv")[-1]["height.convergence"]), 0.7 * 22.73e-3)
+
+    def test_roof_of_voussoirs_arches(self):
+        _, folder = self.ran("voussoir-roof")
+        self.assertAlmostEqual(-self.moved(folder, "mid-span")[1] / 9.8e-3, 1, delta=0.03)
+        thrust = sum(float(j["normal_force"]) for j in self.rows(folder / "joints.csv") if abs(float(j["x"])) < 0.02)
+        self.assertAlmostEqual(thrust / 0.43e6, 1, delta=0.05)
+
     def test_slope_slides_unless_its_beds_are_rough(self):
         _, folder = self.ran("slope")
         self.assertLess(self.moved(folder, "crest")[0], -3.0)

@@ -8,6 +8,7 @@
 #include "attachments/drawn_blocks.hpp"
 #include "base/polygon.hpp"
 #include "blocks/bent_state.hpp"
+#include "blocks/mode_weights.hpp"
 
 namespace edda::bending_test {
 namespace {
@@ -50,18 +51,33 @@ struct OneBlock : DrawnBlocks {
   static constexpr double ratio = 0.2 / (1.0 - 0.2);
   /// mu_v by its definition.
   double part(std::size_t v) const {
-    double perimeter = 0.0;
-    for (const double l : blocks.edge_length) perimeter += l;
-    const double here =
-        0.5 * (blocks.edge_length[v] + blocks.edge_length[blocks.previous[v]]) / perimeter;
-    return 0.5 + 0.5 * static_cast<double>(corners()) * here;
+    const auto along = [&](std::size_t w) {
+      return 0.5 * (blocks.edge_length[w] + blocks.edge_length[blocks.previous[w]]);
+    };
+    double perimeter = 0.0, xx = 0.0, xy = 0.0, yy = 0.0;
+    Vec2 centre;
+    for (std::size_t w = 0; w < corners(); ++w) {
+      perimeter += along(w);
+      centre += along(w) * arm(w);
+    }
+    centre = centre / perimeter;
+    for (std::size_t w = 0; w < corners(); ++w) {
+      const Vec2 d = arm(w) - centre;
+      xx += along(w) * d.x * d.x / perimeter;
+      xy += along(w) * d.x * d.y / perimeter;
+      yy += along(w) * d.y * d.y / perimeter;
+    }
+    const double det = xx * yy - xy * xy;
+    const Vec2 slope{(xy * centre.y - yy * centre.x) / det, (xy * centre.x - xx * centre.y) / det};
+    return static_cast<double>(corners()) * along(v) / perimeter *
+           (1.0 + dot(slope, arm(v) - centre));
   }
   /// The modes of a displacement of the corners that is given in the block's frame.
   void bend(const std::vector<Vec2>& u) {
     for (std::size_t a = 0; a < modes().count; ++a) {
       Vec2 sum;
       for (std::size_t v = 0; v < corners(); ++v) sum += (part(v) * modes().of(a, v)) * u[v];
-      state.bend.set(a, sum);
+      state.bend.set(modes()[a], sum);
     }
   }
   double stored() const {
@@ -127,12 +143,32 @@ TEST(Bending, ShapesContainNoAffineMotion) {
   }
 }
 
+/// The masses of the corners have the centroid of the block: its weight, on any supports, bends it
+/// no more than these do.
+TEST(Bending, MassesHaveTheCentroid) {
+  std::vector<Shape> all = shapes();
+  all.push_back({"nodes on one side",
+                 {{0, 0}, {10, 0}, {10, 5}, {5.2, 5}, {5, 5}, {4.8, 5}, {4.6, 5}, {0, 5}}});
+  for (const Shape& s : all) {
+    const OneBlock o(s.ring);
+    Vec2 centre;
+    double sum = 0.0;
+    for (std::size_t v = 0; v < o.corners(); ++v) {
+      EXPECT_GT(o.part(v), 0.0) << s.name;
+      sum += o.part(v);
+      centre += o.part(v) * o.arm(v);
+    }
+    EXPECT_NEAR(sum, static_cast<double>(o.corners()), 1e-12) << s.name;
+    EXPECT_NEAR(norm(centre), 0.0, 1e-12) << s.name;
+  }
+}
+
 /// A uniform traction on all edges bends nothing.
 TEST(Bending, UniformStressDoesNotBend) {
   for (const Shape& s : shapes()) {
     const OneBlock o(s.ring);
     ModeVectors on;
-    on.assign(o.modes().count, 0.0);
+    on.assign(o.blocks.bending.modes(), 0.0);
     for (Id v = 0; v < o.corners(); ++v) {
       const Vec2 u = o.blocks.vertex(o.blocks.next[v]) - o.blocks.vertex(v);
       const Vec2 n = outward_normal(u), f = 0.5 * Vec2{3.0 * n.x + 2.0 * n.y, 2.0 * n.x - n.y};
@@ -140,7 +176,7 @@ TEST(Bending, UniformStressDoesNotBend) {
       o.modes().spread(on, o.blocks.next[v], f);
     }
     for (std::size_t a = 0; a < o.modes().count; ++a)
-      EXPECT_NEAR(norm(on[a]), 0.0, 1e-12) << s.name;
+      EXPECT_NEAR(norm(on[o.modes()[a]]), 0.0, 1e-12) << s.name;
   }
 }
 
@@ -201,11 +237,32 @@ TEST(Bending, StoresNoMoreThanPureBending) {
   }
 }
 
-/// kappa of a square is E'/3 in both directions of its one mode.
+/// The one mode of a square has the stiffness E'/3 in both directions.
 TEST(Bending, OfASquareIsAThirdOfTheModulus) {
-  const OneBlock o({{0, 0}, {1, 0}, {1, 1}, {0, 1}});
-  for (std::size_t k = 0; k < 2; ++k)
-    EXPECT_NEAR(o.blocks.bending.kappa[k][0], o.modulus() / 3.0, 1e-6 * o.modulus());
+  OneBlock o({{0, 0}, {1, 0}, {1, 1}, {0, 1}});
+  for (const Vec2 q : {Vec2{1, 0}, Vec2{0, 1}, Vec2{0.6, -0.8}}) {
+    o.state.bend.set(o.modes()[0], 1e-3 * q);
+    EXPECT_NEAR(o.stored(), 0.5e-6 * o.modulus() / 3.0, 1e-9 * o.modulus());
+  }
+}
+
+/// No motion of the corners stores less than nothing, nor more than a boundary that moves by
+/// itself.
+TEST(Bending, StiffnessIsPositive) {
+  for (const Shape& s : shapes()) {
+    OneBlock o(s.ring);
+    const BlockModes modes = o.modes();
+    for (int k = 0; k < 40; ++k) {
+      double most = 0.0;
+      for (std::size_t a = 0; a < modes.count; ++a) {
+        const Vec2 q{std::sin(3.0 * k + static_cast<double>(a)), std::cos(5.0 * k * k)};
+        o.state.bend.set(modes[a], q);
+        most += 0.5 * o.blocks.bending.stiffness[modes[a]] * dot(q, q);
+      }
+      EXPECT_GT(o.stored(), 0.0) << s.name;
+      EXPECT_LE(o.stored(), most * (1.0 + 1e-12)) << s.name;
+    }
+  }
 }
 
 /// What a bent block stores does not depend on how it is turned or drawn.
@@ -253,6 +310,31 @@ TEST(Bending, ACorrugatedBoundaryIsAsStiffAsAHalfPlane) {
     const double exact = 0.125 * o.modulus() * waves * 2.0 * std::numbers::pi * 1e-6;
     EXPECT_GT(o.stored(), (waves == 4 ? 0.8 : 0.6) * exact) << waves;
     EXPECT_LT(o.stored(), exact) << waves;
+  }
+}
+
+/// A point within a block follows its corners: all of them alike, each of them at its place, and
+/// the points of an edge as the edge does.
+TEST(ModeWeights, PointsFollowTheCorners) {
+  for (const Shape& s : shapes()) {
+    const OneBlock o(s.ring);
+    const BlockModes modes = o.modes();
+    for (Id v = 0; v < o.corners(); ++v) {
+      const Id next = o.blocks.next[v];
+      for (const double part : {0.0, 0.3, 0.5, 1.0}) {
+        const Vec2 p = (1.0 - part) * o.blocks.vertex(v) + part * o.blocks.vertex(next);
+        const std::vector<double> weights = mode_weights(o.blocks, 0, p);
+        for (std::size_t a = 0; a < modes.count; ++a)
+          EXPECT_NEAR(weights[a], (1.0 - part) * modes.of(a, v) + part * modes.of(a, next), 1e-9)
+              << s.name << ' ' << v << ' ' << part;
+      }
+      // A little within: no jump at the edge.
+      const Vec2 middle = 0.5 * (o.blocks.vertex(v) + o.blocks.vertex(next));
+      const Vec2 inward = perp(unit(o.blocks.vertex(next) - o.blocks.vertex(v)));
+      const std::vector<double> weights = mode_weights(o.blocks, 0, middle + 1e-5 * inward);
+      for (std::size_t a = 0; a < modes.count; ++a)
+        EXPECT_NEAR(weights[a], 0.5 * (modes.of(a, v) + modes.of(a, next)), 1e-4) << s.name;
+    }
   }
 }
 

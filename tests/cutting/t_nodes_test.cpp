@@ -26,7 +26,7 @@ TEST(TNodes, AnEdgeHasOneWhereTwoNeighboursMeet) {
   PolygonSet set = of({{{0, -1}, {2, -1}, {2, 1}, {0, 1}},
                        {{0, 1}, {0.9, 1}, {0.9, 2}, {0, 2}},
                        {{0.9, 1}, {2, 1}, {2, 2}, {0.9, 2}}});
-  add_t_nodes(set, 1e-9, all);
+  add_t_nodes(set, 1e-9, 48, all);
   const Ring expected{{0, -1}, {2, -1}, {2, 1}, {0.9, 1}, {0, 1}};
   EXPECT_EQ(set.blocks[0].rings[0], expected);
   const std::vector<Index> laws{0, 1, 2, 2, 3};
@@ -42,33 +42,67 @@ TEST(TNodes, CornersElsewhereAreNone) {
                        {{2, 1}, {3, 1}, {3, 2}, {2, 2}},
                        {{-1, 1}, {0.05, 1}, {0.05, 2}, {-1, 2}}});
   const PolygonSet before = set;
-  add_t_nodes(set, 1e-9, all);
+  add_t_nodes(set, 1e-9, 48, all);
   EXPECT_EQ(set.blocks[0].rings, before.blocks[0].rings);
 }
 
-/// A long block has nodes all along, beside those at its neighbours; a square has none.
-TEST(TNodes, LongEdgesAreDivided) {
-  PolygonSet set = of({{{-2, -1}, {4, -1}, {4, 0}, {-2, 0}}, {{0.1, 0}, {1, 0}, {1, 1}, {0.1, 1}}});
-  add_t_nodes(set, 1e-9, all);
-  const Ring expected{{-2, -1}, {-1, -1}, {0, -1}, {1, -1}, {2, -1},  {3, -1}, {4, -1},
-                      {4, 0},   {3, 0},   {2, 0},  {1, 0},  {0.1, 0}, {-1, 0}, {-2, 0}};
+/// A side of a neighbour that hardly turns meets the edge before and behind its corner.
+TEST(TNodes, ACornerThatHardlyTurnsIsNone) {
+  for (const double rise : {0.0, 0.01, 0.1, 0.3}) {
+    PolygonSet set =
+        of({{{0, -1}, {2, -1}, {2, 0}, {0, 0}}, {{-1, 0}, {1, 0}, {3, rise}, {3, 2}, {-1, 2}}});
+    add_t_nodes(set, 1e-9, 48, all);
+    EXPECT_EQ(set.blocks[0].rings[0].size(), rise < 0.2 ? 4u : 6u) << rise << " over 2 m";
+  }
+}
+
+/// A long block has nodes across from those at its neighbours; a thick one has none, nor has one
+/// without such neighbours.
+TEST(TNodes, LongBlocksHavePartners) {
+  PolygonSet set = of({{{-2, -1}, {4, -1}, {4, 0}, {-2, 0}}, {{0.1, 0}, {2, 0}, {2, 1}, {0.1, 1}}});
+  add_t_nodes(set, 1e-9, 48, all);
+  const Ring expected{{-2, -1}, {0.1, -1}, {2, -1}, {4, -1}, {4, 0}, {2, 0}, {0.1, 0}, {-2, 0}};
   ASSERT_EQ(set.blocks[0].rings[0].size(), expected.size());
   for (std::size_t v = 0; v < expected.size(); ++v)
     EXPECT_NEAR(norm(set.blocks[0].rings[0][v] - expected[v]), 0.0, 1e-12) << v;
-  PolygonSet square = of({{{0, 0}, {1, 0}, {1, 1}, {0, 1}}});
-  add_t_nodes(square, 1e-9, all);
-  EXPECT_EQ(square.blocks[0].rings[0].size(), 4u);
-  PolygonSet thin = of({{{0, 0}, {100, 0}, {100, 1}, {0, 1}}});
-  add_t_nodes(thin, 1e-9, all);
-  EXPECT_EQ(thin.blocks[0].rings[0].size(), 4u + 2u * 9u) << "ten pieces at most";
+  PolygonSet thick =
+      of({{{-2, -5}, {4, -5}, {4, 0}, {-2, 0}}, {{0.1, 0}, {2, 0}, {2, 1}, {0.1, 1}}});
+  add_t_nodes(thick, 1e-9, 48, all);
+  EXPECT_EQ(thick.blocks[0].rings[0].size(), 6u);
+  PolygonSet alone = of({{{0, 0}, {100, 0}, {100, 1}, {0, 1}}});
+  add_t_nodes(alone, 1e-9, 48, all);
+  EXPECT_EQ(alone.blocks[0].rings[0].size(), 4u);
+}
+
+/// Neighbours nearer to each other than half the thickness share a partner.
+TEST(TNodes, PartnersKeepApart) {
+  PolygonSet set =
+      of({{{-20, -4}, {20, -4}, {20, 0}, {-20, 0}}, {{-1.5, 0}, {1.5, 0}, {1.5, 1}, {-1.5, 1}}});
+  add_t_nodes(set, 1e-9, 48, all);
+  EXPECT_EQ(set.blocks[0].rings[0].size(), 4u + 2u + 2u);
+  PolygonSet near =
+      of({{{-20, -4}, {20, -4}, {20, 0}, {-20, 0}}, {{-0.9, 0}, {0.9, 0}, {0.9, 1}, {-0.9, 1}}});
+  add_t_nodes(near, 1e-9, 48, all);
+  EXPECT_EQ(near.blocks[0].rings[0].size(), 4u + 1u + 1u);
+}
+
+/// A block that would have more corners than may bend does without partners, or without nodes.
+TEST(TNodes, NoBlockHasMoreThanMayBend) {
+  const PolygonSet drawn =
+      of({{{-20, -4}, {20, -4}, {20, 0}, {-20, 0}}, {{-4, 0}, {4, 0}, {4, 1}, {-4, 1}}});
+  for (const auto& [most, corners] : {std::pair{8u, 8u}, {7u, 6u}, {6u, 6u}, {5u, 4u}}) {
+    PolygonSet set = drawn;
+    add_t_nodes(set, 1e-9, most, all);
+    EXPECT_EQ(set.blocks[0].rings[0].size(), corners) << most;
+  }
 }
 
 TEST(TNodes, OnlyBlocksThatBendHaveThem) {
   PolygonSet set =
       of({{{0, -1}, {2, -1}, {2, 1}, {0, 1}}, {{0.5, 1}, {1.5, 1}, {1.5, 2}, {0.5, 2}}});
-  add_t_nodes(set, 1e-9, [](std::size_t i) { return i == 1; });
+  add_t_nodes(set, 1e-9, 48, [](std::size_t i) { return i == 1; });
   EXPECT_EQ(set.blocks[0].rings[0].size(), 4u);
-  add_t_nodes(set, 1e-9, all);
+  add_t_nodes(set, 1e-9, 48, all);
   EXPECT_EQ(set.blocks[0].rings[0].size(), 6u);
 }
 
@@ -79,8 +113,8 @@ TEST(TNodes, ALongEdgeHasOneAtEveryNeighbour) {
   std::vector<Ring> rings{{at(0, -1), at(19, -1), at(19, 0), at(0, 0)}};
   for (int k = 0; k < 19; ++k) rings.push_back({at(k, 0), at(k + 1, 0), at(k + 1, 1), at(k, 1)});
   PolygonSet set = of(rings);
-  add_t_nodes(set, 1e-9, all);
-  EXPECT_EQ(set.blocks[0].rings[0].size(), 4u + 18u + 9u) << "and ten pieces below";
+  add_t_nodes(set, 1e-9, 48, all);
+  EXPECT_EQ(set.blocks[0].rings[0].size(), 4u + 18u + 18u) << "and as many below";
 }
 
 }  // namespace

@@ -16,6 +16,7 @@ density = 2750
 young = "20 GPa"
 poisson = 0.25
 damping = 0.2
+deformation = "uniform"
 strength = { ucs = "90 MPa", tension = 6e6 }
 [materials."soft clay"]
 unit_weight = "20 kN/m3"

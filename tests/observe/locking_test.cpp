@@ -15,8 +15,10 @@ using testing::prepared;
 
 /// A circular opening of radius `radius` in a mass cut by sets at these angles.
 std::string tunnel(const std::string& angles, double spacing, double radius,
-                   const std::string& joint) {
-  std::string text = R"(gravity = [0, 0]
+                   const std::string& joint,
+                   const std::string& deformation = "deformation = 'uniform'") {
+  std::string text = deformation + R"(
+gravity = [0, 0]
 [materials.rock]
 density = 2600
 young = 10e9
@@ -94,8 +96,10 @@ TEST(Locking, GrowsWithStiffnessAndSizeAlone) {
 }
 
 /// A beam of glued blocks, fixed at one end, under this load.
-std::string beam(const std::string& load, const std::string& joint) {
-  std::string text = R"(gravity = [0, 0]
+std::string beam(const std::string& load, const std::string& joint,
+                 const std::string& deformation = "deformation = 'uniform'") {
+  std::string text = deformation + R"(
+gravity = [0, 0]
 [materials.rock]
 density = 2600
 young = 20e9
@@ -153,13 +157,16 @@ TEST(Locking, IsWarnedOfWhereItBends) {
   EXPECT_FALSE(warned(coulomb("1e5")));
   EXPECT_TRUE(warned(coulomb("20e6")));
   EXPECT_FALSE(warned(tunnel("0 60 120", 1.3, 3.0, "")));
+  // As blocks are by default.
+  EXPECT_FALSE(warned(beam("[0, -1e4]", "", "")));
+  EXPECT_FALSE(warned(tunnel("0 90", 1.0, 4.0, "", "")));
 }
 
 /// Blocks that bend lock nothing, but may be too coarse for an opening.
 TEST(Locking, OfBlocksThatBendIsOfTheirSizeAlone) {
   const auto lost = [](double spacing, double radius, const std::string& joint) {
     const PreparedRun run =
-        prepared("deformation = \"corners\"\n" + tunnel("0 90", spacing, radius, joint));
+        prepared(tunnel("0 90", spacing, radius, joint, "deformation = 'corners'"));
     return locked_openings(run.sim).at(0);
   };
   EXPECT_EQ(lost(1.0, 3.0, "").lost, 0.0);

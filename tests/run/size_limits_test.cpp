@@ -58,7 +58,7 @@ TEST(SizeLimits, FilesWithoutEndAreRefused) {
   const auto frames = beyond_disks(sim);
   ASSERT_TRUE(frames);
   EXPECT_EQ(to_string(*frames),
-            "m.toml: output.every: the files would take at least 1.01e+05 GB: give more time "
+            "m.toml: output.every: the files would take at least 1.51e+05 GB: give more time "
             "between frames");
   sim.scene.edit().model.output.every = 1.0;
   sim.scene.edit().model.output.history_every = 1e-12;

@@ -49,7 +49,8 @@ Moving moved(double mass_damping, bool strain_damped, bool pushed, const EdgeFor
   Nodes fx = zero_nodes(1), fy = fx;
   NodeVectors all = force;
   ModeVectors on_modes, old_rate = m.state.bend_rate;
-  on_modes.assign(1, 2e4);
+  on_modes.assign(m.blocks.bending.modes(), 0.0);
+  on_modes.set(0, {2e4, 2e4});
   if (!pushed) {
     spread(all, m.blocks, more.edge, more.at_edge);
     spread(all, m.blocks, more.end, more.at_end);
@@ -67,7 +68,7 @@ Moving moved(double mass_damping, bool strain_damped, bool pushed, const EdgeFor
   StrainDamping* const damps = strain_damped ? &strain : nullptr;
   const StepDamping damping{mass_damping, 0.0, nullptr, damps};
   ModeDamping modes;
-  modes.force.assign(1, 0.0);
+  modes.force.assign(m.blocks.bending.modes(), 0.0);
   modes.couple.assign(1, 0.0);
   ModeDamping* const of_modes = strain_damped ? &modes : nullptr;
   const Leap leap{m.blocks, m.masses, fx,      fy,        m.old_vx, m.old_vy,

@@ -36,7 +36,8 @@ std::string chatter_of(const std::string& text) {
 TEST(Chatter, IsReportedWithItsRemedy) {
   for (const auto& [width, height, count] :
        {std::tuple{2.0, 1.0, 1}, {3.0, 3.0, 1}, {1.0, 1.0, 4}}) {
-    const std::string said = chatter_of(slope(width, height, count, "damping = 0\n"));
+    const std::string said =
+        chatter_of(slope(width, height, count, "damping = 0\ndeformation = 'uniform'\n"));
     for (const char* part :
          {"openings and closings, limit ", "mostly between block", "materials.NAME.damping"}) {
       EXPECT_NE(said.find(part), std::string::npos) << width << " x " << height << ": " << said;

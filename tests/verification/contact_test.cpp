@@ -146,9 +146,9 @@ Momentum momentum(const Simulation& s) {
       m.angular_scale += mass * norm(x) * norm(v);
     }
     const BlockModes modes = s.scene->blocks.modes(i);
-    for (std::size_t a = modes.first; a < modes.first + modes.count; ++a) {
-      const Vec2 v = s.motion.state.bend_rate[a];
-      const Vec2 q = s.motion.state.bend[a] - 0.5 * s.motion.state.step * v;
+    for (std::size_t a = 0; a < modes.count; ++a) {
+      const Vec2 v = s.motion.state.bend_rate[modes[a]];
+      const Vec2 q = s.motion.state.bend[modes[a]] - 0.5 * s.motion.state.step * v;
       m.angular += cross(q, v) / s.motion.masses.mode_inverse[i];
     }
   }

@@ -120,7 +120,7 @@ TEST(Copies, ComeToTheSameRest) {
       const std::vector<Moved> other = displacements_of(copy, seed);
       ASSERT_EQ(other.size(), first.size()) << copy.name;
       const Apart difference = apart(first, other);
-      EXPECT_LT(difference.of_nine_in_ten, 2e-4) << copy.name << ", seed " << seed;
+      EXPECT_LT(difference.of_nine_in_ten, 3e-4) << copy.name << ", seed " << seed;
       EXPECT_LT(difference.largest, 1e-1) << copy.name << ", seed " << seed;
     }
   }

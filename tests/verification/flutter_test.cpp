@@ -51,7 +51,7 @@ double measured_growth(double phi, double spring, double safety, double duration
   std::string undamped = ramp(30.0, phi, "20e9", 1,
                               "damping = { mass = 1e4 }\nsafety = " + number(safety) +
                                   "\n[contact]\nnormal_stiffness = " + number(spring) + "\n");
-  undamped.insert(undamped.find("[joints.ramp]"), "damping = 0\n");
+  undamped.insert(undamped.find("[joints.ramp]"), "damping = 0\ndeformation = 'uniform'\n");
   Simulation sim = scene(undamped);
   start(sim, damped_time);
   while (sim.motion.state.time < damped_time) EXPECT_FALSE(step(sim).has_value());

@@ -15,6 +15,7 @@ std::string on_floor(const std::string& blocks, const std::string& solver) {
 density = 2500.0
 young = 2e10
 poisson = 0.2
+deformation = "uniform"
 [contact]
 normal_stiffness = 2e8
 [joints.j]

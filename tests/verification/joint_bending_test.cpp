@@ -69,8 +69,9 @@ struct Column {
 
   double weight() const { return density * g * width * height; }  // of one
   std::string toml(const std::string& law, const std::string& rest) const {
+    // The formulas know the bending of joints, and not that of blocks.
     std::string text =
-        "[materials.rock]\ndensity = " + number(density) +
+        "deformation = 'uniform'\n[materials.rock]\ndensity = " + number(density) +
         "\nyoung = 20e9\npoisson = 0.2\n[joints.j]\n" + law + "kn = " + number(kn) +
         "\nks = " + number(kn) + "\n" + rest +
         "[[block]]\nfixed = true\npolygon = " + rectangle(-2.0 * width, -1, 2.0 * width, 0) + "\n";

@@ -117,13 +117,12 @@ inline void expect_at_rest(const Simulation& column, const std::string& label) {
 
 /// Row 13: semicircular arch of 16 equal voussoirs, thickness over radius given.
 inline std::string arch(double ratio,
-                        const std::string& solver = "duration = 4.0\ndamping = { mass = 0.5 }\n") {
+                        const std::string& solver = "duration = 4.0\ndamping = { mass = 0.5 }\n",
+                        double young = 20e9) {
   const int n = 16;
   const double radius = 5.0, t = ratio * radius;
-  std::string toml = R"(
-[materials.stone]
+  std::string toml = "[materials.stone]\nyoung = " + number(young) + R"(
 density = 2400.0
-young = 20e9
 poisson = 0.2
 [joints.j]
 friction_angle = 40.0

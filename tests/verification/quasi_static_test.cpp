@@ -20,8 +20,9 @@ TEST(QuasiStatic, APanelFailsAtTheLimitOfRigidBlocksHoweverStiff) {
     const Result<FosResult> r = find_factor(model.value(), {});
     ASSERT_TRUE(r.ok()) << to_string(r.faults()[0]);
     ASSERT_TRUE(r.value().factor) << r.value().message;
+    // Without dilation the limit is a little lower, 0.6398 (Ferris and Tin-Loi 2001).
     expect_relative({65, std::string("E = ") + young + " GPa", "seismic coefficient", ""},
-                    *r.value().factor, 0.6428590, 5e-3);
+                    *r.value().factor, 0.6428590, -8e-3, 5e-3);
     ASSERT_TRUE(r.value().rigid);
     EXPECT_TRUE(r.value().rigid->below_most);
     EXPECT_NEAR(r.value().rigid->most, 0.6428590, 1e-6);

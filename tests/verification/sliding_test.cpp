@@ -14,7 +14,7 @@ double more_for_friction(double alpha, double phi) {
 
 TEST_P(Ramp, SlidesAsAnalytic) {
   const auto [alpha, phi] = GetParam();
-  for (const auto& [young, bound] : {std::pair{"200e6", 2e-2}, std::pair{"20e9", 2e-3}}) {
+  for (const auto& [young, bound] : {std::pair{"200e6", 2.5e-2}, std::pair{"20e9", 3e-3}}) {
     Simulation sim = scene(ramp(alpha, phi, young));
     EXPECT_LT(expect_slides(sim, 1, ramp_label(alpha, phi, young), alpha, phi,
                             bound * more_for_friction(alpha, phi)),
@@ -37,7 +37,7 @@ double press_in_ten_pieces(double alpha, double phi, const std::string& label,
   const double weight = 2.0 * 2750.0 * 9.8 * std::cos(radians(alpha));
   Series pressing(17, "normal forces, " + label, {"time", "computed"});
   double largest = 0.0;
-  const double bound = 2e-3 * more_for_friction(alpha, phi);
+  const double bound = 3e-3 * more_for_friction(alpha, phi);
   const double error = expect_slides(sim, 17, label, alpha, phi, bound, [&](Simulation& s) {
     double sum = 0.0;
     for (std::size_t k = 0; k < s.motion.contacts.size(); ++k)

@@ -189,8 +189,7 @@ ROWS = (
         "Kirsch (1898), plane strain, with shear modulus and Poisson's ratio of a square of the same mass under"
         " pressure. Stress is compared by rings as wide as a block, without the one at the wall, by its mean and its"
         " second harmonic.",
-        "Blocks have one strain each, so the mass bends only by deformation of joints: this is the error, and it is"
-        " proportional to the square of the block size. Smaller and larger blocks: `kirsch_long_test.cpp`."),
+        "The polygons are not small beside the opening, and the constants are those of a square of the mass. Smaller and larger blocks: `kirsch_long_test.cpp`."),
     Row(40, "Factor of safety of a ramp",
         "The block of row 1 on 30 degrees; the strength of its joint is divided by a factor.",
         "A block slides where tan(phi)/F = tan(a)."),
@@ -341,4 +340,10 @@ ROWS = (
         " envelope, with peaks of 0.3 and 0.6 g), each with both signs, after it has come to equilibrium.",
         "A rigid block that slides while the driving force exceeds friction, in either direction; integrated with 200 steps for"
         " each interval of the record (Newmark 1965)."),
+    Row(71, "Closures of a tunnel in blocks",
+        "A circular tunnel of 3 m radius in rock of 10 GPa under 10 MPa from the sides and 20 MPa from above, cut into glued blocks;"
+        " the squares reach to 20 radii, six metres wide beyond four radii. Measured 5 cm behind the wall.",
+        "Kirsch (1898). The joints of squares are as stiff in shear as across, so the rock with its joints is isotropic:"
+        " 2 G = 1/((1 + nu)/E + 1/(k s)). For running bond and polygons: the same joints between blocks that are divided into fine"
+        " triangles, in the same box."),
 )

@@ -19,7 +19,7 @@ constexpr std::array root_keys{
     Key{"title", at<&Model::title>, text, initial, "Title of pictures and tables."},
     Key{"gravity", at<&Model::gravity>, shape(Kind::point, D::acceleration), initial, "Acceleration of gravity, x and y."},
     Key{"plane", at<&Model::plane>, choice, initial, "Plane strain, or plane stress (a thin plate)."},
-    Key{"deformation", at<&Model::deformation>, choice, initial, "How blocks deform. Uniform: each has one strain. Corners: the corners of a block deviate from it, so that the block bends (method edda, contacts that are faces); a triangle has one strain in any case. The dashpots of joints.restitution are fitted to uniform blocks."},
+    Key{"deformation", at<&Model::deformation>, choice, initial, "How blocks deform. Corners: the corners of a block deviate from its mean strain, so that the block bends (with method edda and contact.model faces; a triangle has one strain in any case). Uniform: each has one strain, and is too stiff in bending. Auto: corners, unless any joint of the model has a restitution, the dashpots of which are fitted to uniform blocks. materials.NAME.deformation goes first."},
     Key{"thickness", at<&Model::thickness>, number(D::length, above(0)), initial, "Thickness out of plane for which forces and masses are given."},
 };
 
@@ -29,6 +29,7 @@ constexpr std::array material_keys{
     Key{"young", at<&Material::young>, number(D::stress, above(0)), required, "Young's modulus."},
     Key{"poisson", at<&Material::poisson>, number(D::plain, between(-1, 0.5)), required, "Poisson's ratio."},
     Key{"damping", at<&Material::damping>, number(D::plain, from(0)), initial, "Viscous damping of the strain of a block, as a fraction of critical damping of its lowest natural frequency; it hardly affects motion far below that frequency. 0: none."},
+    Key{"deformation", at<&Material::deformation>, choice, initial, "How blocks of this material deform: corners or uniform; auto: as the model says."},
     Key{"strength", at<&Material::strength>, table, otherwise("none: overstress is not computed"), "Strength of the intact rock; blocks stay elastic, over-stressed ones are reported."},
 };
 

@@ -13,7 +13,7 @@ namespace edda {
 // Names of the values of each enumeration, in the order of the enumeration.
 inline constexpr std::array<std::string_view, 2> plane_names{"strain", "stress"};
 inline constexpr std::array<std::string_view, 2> method_names{"edda", "dda"};
-inline constexpr std::array<std::string_view, 2> deformation_names{"corners", "uniform"};
+inline constexpr std::array<std::string_view, 3> deformation_names{"auto", "corners", "uniform"};
 inline constexpr std::array<std::string_view, 3> mass_names{"matched", "covering", "consistent"};
 inline constexpr std::array<std::string_view, 2> switching_names{"exact", "plain"};
 inline constexpr std::array<std::string_view, 2> contact_model_names{"faces", "points"};
