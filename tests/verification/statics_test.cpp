@@ -45,14 +45,14 @@ TEST(Column, CriticalStep) {
   }
 }
 
-/// Row 13: the limit of a semicircular arch of 16 voussoirs is t/R = 0.1072. Its gravity acts at
-/// once: voussoirs of softer stone bend in the jolt, and the hinges that open are too many.
 TEST(Arch, OfSofterStoneStandsWhenItsWeightComesSlowly) {
   const PreparedRun r = settled(arch(0.1085, "", 20e9) + "[[stage]]\nuntil = 'equilibrium'\n");
   for (std::size_t i = 2; i < r.sim.scene->blocks.size(); ++i)
     EXPECT_LT(norm(displacement(r.sim, i)), 0.01) << i;
 }
 
+/// Row 13: the limit of a semicircular arch of 16 voussoirs is t/R = 0.1072. Its gravity acts at
+/// once: voussoirs of softer stone bend in the jolt, and the hinges that open are too many.
 TEST(Arch, StandsAndFalls) {
   for (const auto& [ratio, stands] : {std::pair{0.1085, true}, std::pair{0.107, false}}) {
     Simulation sim = scene(arch(ratio, "duration = 4.0\ndamping = { mass = 0.5 }\n", 200e9));
