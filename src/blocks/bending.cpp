@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/corner_weights.hpp"
+
 namespace edda {
 namespace {
 
@@ -15,25 +17,11 @@ Eigen::Index row(std::size_t v) {
   return static_cast<Eigen::Index>(v);
 }
 
-/// mu_v: each edge has a mass by its length, half of it at either end, times a factor that is
-/// linear over the block, so that the centre of these masses is the centroid; mean 1. Of a block so
-/// odd that the factor would vanish somewhere it is reduced.
+/// mu_v: by the lengths of the edges, with the centroid as their centre; mean 1.
 Vector mass_parts(const BendingBlock& q) {
-  const auto n = row(q.corner.size());
-  Vector mu(n);
-  Eigen::MatrixX2d x(n, 2);
-  for (std::size_t v = 0; v < q.corner.size(); ++v) {
-    mu[row(v)] = q.tributary[v];
-    x.row(row(v)) << q.corner[v].x, q.corner[v].y;
-  }
-  mu /= mu.sum();
-  const Eigen::RowVector2d centre = mu.transpose() * x;
-  x.rowwise() -= centre;
-  const Eigen::Matrix2d moments = x.transpose() * mu.asDiagonal() * x;
-  const Vector change = -x * moments.ldlt().solve(centre.transpose());
-  constexpr double most = 0.75;
-  mu.array() *= 1.0 + std::min(1.0, most / std::max(-change.minCoeff(), most)) * change.array();
-  return static_cast<double>(n) / mu.sum() * mu;
+  const std::vector<double> weight = corner_weights(q.corner, q.tributary);
+  const auto n = row(weight.size());
+  return static_cast<double>(n) * Eigen::Map<const Vector>(weight.data(), n);
 }
 
 /// An orthonormal basis, in the metric of mu, of what contains no affine motion, [n][n - 3].
@@ -196,27 +184,6 @@ BendingModes bending_modes(const BendingBlock& q, const Vector& mu, const Matrix
   return found;
 }
 
-/// e . K e of each e_b, and the mean of K on what is left of the modes' components.
-struct OwnStiffness {
-  std::array<double, bendings> along{};
-  double beside = 0.0;
-};
-OwnStiffness own_stiffness(const Vector& k, const BendingModes& bending) {
-  OwnStiffness own;
-  double sum = 2.0 * k.sum(), count = 2.0 * static_cast<double>(k.size());
-  for (std::size_t b = 0; b < bendings; ++b) {
-    const auto e = bending.axis.col(row(b));
-    if (e.squaredNorm() == 0.0) continue;
-    double of_boundary = 0.0;
-    for (Eigen::Index c = 0; c < e.size(); ++c) of_boundary += k[c / 2] * e[c] * e[c];
-    own.along[b] = of_boundary - bending.less[b];
-    sum -= of_boundary;
-    count -= 1.0;
-  }
-  own.beside = count > 0.5 ? sum / count : 0.0;
-  return own;
-}
-
 /// Room for the modes of the next block, which are its numbers at the places of the result. A group
 /// grows by places for all of its blocks: it is the last.
 ModePlaces open_block(Bending& out, std::size_t count) {
@@ -264,19 +231,33 @@ void add_modes(Bending& out, const BendingBlock& q) {
     for (Eigen::Index a = 0; a < shape.cols(); ++a) out.shape.push_back(shape(v, a));
   }
   const std::size_t i = out.count.size() - 1;
-  const OwnStiffness own_of = own_stiffness(k, bending);
-  for (std::size_t b = 0; b < bendings; ++b) {
-    out.less[b][i] = bending.less[b];
-    out.along[b].push_back(own_of.along[b]);
-  }
-  out.beside.push_back(own_of.beside);
+  for (std::size_t b = 0; b < bendings; ++b) out.less[b][i] = bending.less[b];
   out.shape_begin.back() = out.shape.size();
 }
 
 void add_no_modes(Bending& out) {
   open_block(out, 0);
-  for (std::vector<double>& along : out.along) along.push_back(0.0);
-  out.beside.push_back(0.0);
+}
+
+std::array<double, bendings + 1> stiffness_along(const Bending& b, const BlockModes& modes,
+                                                 std::size_t i) {
+  std::array<double, bendings + 1> along{};
+  double rest = 0.0, left = 2.0 * static_cast<double>(modes.count);
+  for (std::size_t a = 0; a < modes.count; ++a) rest += 2.0 * b.stiffness[modes[a]];
+  for (std::size_t k = 0; k < bendings; ++k) {
+    double square = 0.0, of_boundary = 0.0;
+    for (std::size_t a = 0; a < modes.count; ++a) {
+      const Vec2 e = b.axis[k][modes[a]];
+      square += dot(e, e);
+      of_boundary += b.stiffness[modes[a]] * dot(e, e);
+    }
+    if (square == 0.0) continue;
+    along[k] = of_boundary - b.less[k][i];
+    rest -= of_boundary;
+    left -= 1.0;
+  }
+  along[bendings] = left > 0.5 ? rest / left : 0.0;
+  return along;
 }
 
 }  // namespace edda

@@ -67,10 +67,8 @@ struct Bending {
   std::vector<std::size_t> shape_begin;  ///< [nb + 1] where its shapes begin
   std::vector<double> shape;             ///< h_av: of each corner of a block, of each of its modes
   std::vector<double> stiffness;         ///< [places] k_a, N/m
-  std::array<ModeVectors, bendings> axis;           ///< [4][places] e_b; 0: none
-  std::array<std::vector<double>, bendings> less;   ///< [4][in_groups(nb)] less_b, N/m
-  std::array<std::vector<double>, bendings> along;  ///< [4][nb] e_b . K e_b, N/m
-  std::vector<double> beside;                       ///< [nb] mean of K beside the e_b, N/m
+  std::array<ModeVectors, bendings> axis;          ///< [4][places] e_b; 0: none
+  std::array<std::vector<double>, bendings> less;  ///< [4][in_groups(nb)] less_b, N/m
 
   /// The number of places.
   std::size_t modes() const { return stiffness.size(); }
@@ -88,13 +86,17 @@ struct Bending {
 inline constexpr std::size_t most_corners_that_bend = 48;
 inline constexpr std::size_t most_modes = most_corners_that_bend - 3;
 
-/// The modes of one block, and their shapes at its corners.
-struct BlockModes {
-  std::size_t first, count;  ///< the place of its first mode, and how many there are
-  const double* shape;       ///< [corners][count]
-  std::size_t corners;
+/// `count` modes from the place `first` on: of a block, or of the eight of a group.
+struct ModePlaces {
+  std::size_t first, count;
   /// The place of mode a.
   std::size_t operator[](std::size_t a) const { return first + group_size * a; }
+};
+
+/// The modes of one block, and their shapes at its corners.
+struct BlockModes : ModePlaces {
+  const double* shape;  ///< [corners][count]
+  std::size_t corners;
   /// h_a at the corner `at`, counted from the block's first.
   double of(std::size_t a, std::size_t at) const { return shape[at * count + a]; }
   /// sum_a h_a v_a at a corner.
@@ -115,8 +117,9 @@ struct BlockModes {
   }
 };
 EDDA_INLINE BlockModes modes_of(const Bending& b, std::size_t i, std::size_t corners) {
-  if (b.count.empty()) return {0, 0, nullptr, corners};
-  return {b.begin[i / group_size] + i % group_size, b.count[i], b.shape.data() + b.shape_begin[i],
+  if (b.count.empty()) return {{0, 0}, nullptr, corners};
+  return {{b.begin[i / group_size] + i % group_size, b.count[i]},
+          b.shape.data() + b.shape_begin[i],
           corners};
 }
 
@@ -164,12 +167,6 @@ template <class T>
 EDDA_INLINE void to(double* place, const T& values) {
   std::memcpy(place, &values, sizeof values);
 }
-
-/// `count` modes from the place `first` on: of a block, or of the eight of a group.
-struct ModePlaces {
-  std::size_t first, count;
-  std::size_t operator[](std::size_t a) const { return first + group_size * a; }
-};
 
 /// What the modes of all blocks have, for loops.
 struct BendingView {
@@ -237,6 +234,11 @@ struct BendingBlock {
   double lambda, mu;                     ///< Lame's constants in the plane, Pa
   double thickness;                      ///< m
 };
+
+/// e_b . K e_b of each bending of a block, and last the mean of K on what its modes have beside
+/// them, N/m.
+std::array<double, bendings + 1> stiffness_along(const Bending& bending, const BlockModes& modes,
+                                                 std::size_t i);
 
 /// Appends the modes of the next block, in the order of the blocks.
 void add_modes(Bending& bending, const BendingBlock& block);

@@ -33,7 +33,7 @@ inline BentState bent_state(const BlockSet& b, const ModeVectors& bend, const Ro
 /// K s.
 inline ModesOfBlock elastic_stress(const BlockSet& b, const BentState& q, std::size_t i) {
   ModesOfBlock g = q.s;
-  mode_stress(view_of(b.bending), {q.modes.first, q.modes.count}, i, g);
+  mode_stress(view_of(b.bending), q.modes, i, g);
   return g;
 }
 

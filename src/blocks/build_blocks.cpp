@@ -157,18 +157,14 @@ void reserve(BlockSet& b, const std::vector<BlockPolygon>& polygons) {
 }  // namespace
 
 bool may_bend(const Model& model, const BlockPolygon& block) {
-  if (model.solver.method != Method::edda || model.contact.model != ContactModel::faces ||
-      block.fixed)
-    return false;
+  if (model.contact.model != ContactModel::faces || block.fixed) return false;
   const BlockDeformation of_material =
       block.material == none
           ? BlockDeformation::automatic
           : model.materials[static_cast<std::size_t>(block.material)].deformation;
   const BlockDeformation chosen =
       of_material == BlockDeformation::automatic ? model.deformation : of_material;
-  if (chosen != BlockDeformation::automatic) return chosen == BlockDeformation::corners;
-  return std::none_of(model.joints.begin(), model.joints.end(),
-                      [](const JointLaw& law) { return law.restitution.has_value(); });
+  return chosen != BlockDeformation::uniform;
 }
 
 BlockSet build_blocks(const Model& model, const PolygonSet& polygons) {

@@ -130,88 +130,6 @@ class Hash {
   std::uint64_t value_ = 1;
 };
 
-}  // namespace
-
-template <class Vector>
-Vector at_corner_of(const BlockSet& b, std::size_t i, const SpringOnBlock& spring, Vec2 direction) {
-  const NodalVector nodes = along(spring.weight, direction);
-  if constexpr (Vector::RowsAtCompileTime != Eigen::Dynamic) {
-    return nodes;
-  } else {
-    const BlockModes modes = b.modes(i);
-    Vector all(nodes.size() + 2 * static_cast<Eigen::Index>(modes.count));
-    all.head(nodes.size()) = nodes;
-    for (std::size_t a = 0; a < modes.count; ++a) {
-      const double h = modes.of(a, spring.corner - b.vertex_begin[i]);
-      all[row_of_node(nodes_per_block + a)] = h * direction.x;
-      all[row_of_node(nodes_per_block + a) + 1] = h * direction.y;
-    }
-    return all;
-  }
-}
-
-namespace {
-
-/// Of boundary springs on the modes, too.
-EquationMatrix boundary_of_modes(const StiffnessInputs& w, std::size_t i, const Rotation& r,
-                                 Eigen::Index size) {
-  EquationMatrix m = EquationMatrix::Zero(size, size);
-  Eigen::Matrix2d turn;
-  turn << r.c, r.s, -r.s, r.c;
-  const BoundarySprings& s = w.springs;
-  for (Id q = s.block_begin[i]; q < s.block_begin[i + 1]; ++q) {
-    Eigen::Matrix2d k;
-    k << s.kxx[q], s.kxy[q], s.kxy[q], s.kyy[q];
-    k = turn * k * turn.transpose();
-    SpringOnBlock at{};
-    at.corner = s.vertex[q];
-    at.weight = weights_of(w.blocks.weight, s.vertex[q]);
-    Eigen::MatrixXd both(size, 2);
-    both.col(0) = at_corner_of<Eigen::VectorXd>(w.blocks, i, at, {1.0, 0.0});
-    both.col(1) = at_corner_of<Eigen::VectorXd>(w.blocks, i, at, {0.0, 1.0});
-    m += both * k * both.transpose();
-  }
-  return m;
-}
-
-/// A matrix of the modes of a block: `beside` on the diagonal, and e_b e_b^T times more[b].
-EquationMatrix of_modes(const BlockSet& b, std::size_t i, const std::array<double, bendings>& more,
-                        const Eigen::VectorXd& beside) {
-  const BlockModes modes = b.modes(i);
-  EquationMatrix matrix = beside.asDiagonal();
-  for (std::size_t k = 0; k < bendings; ++k) {
-    Eigen::VectorXd e(beside.size());
-    for (std::size_t a = 0; a < modes.count; ++a) {
-      const Vec2 of_mode = b.bending.axis[k][modes[a]];
-      e.segment<2>(static_cast<Eigen::Index>(2 * a)) << of_mode.x, of_mode.y;
-    }
-    matrix += more[k] * e * e.transpose();
-  }
-  return matrix;
-}
-
-/// Adds what the modes of a block that bends have of their own to its equations.
-void add_modes(BlockEquations<EquationMatrix>& k, const StiffnessInputs& w, std::size_t i) {
-  const Bending& bending = w.blocks.bending;
-  const BlockModes modes = w.blocks.modes(i);
-  const auto from = static_cast<Eigen::Index>(degrees_of_freedom),
-             size = static_cast<Eigen::Index>(2 * modes.count);
-  const double mass = 1.0 / w.masses.mode_inverse[i];
-  Eigen::VectorXd beside(size);
-  for (Eigen::Index c = 0; c < size; ++c)
-    beside[c] = bending.stiffness[modes[static_cast<std::size_t>(c / 2)]];
-  k.mass.bottomRightCorner(size, size).diagonal().setConstant(mass);
-  std::array<double, bendings> more{};
-  for (std::size_t b = 0; b < bendings; ++b) more[b] = -bending.less[b][i];
-  k.elastic.block(from, from, size, size) = of_modes(w.blocks, i, more, beside);
-  const auto& damping = w.masses.mode_damping;
-  if (damping[0].empty()) return;
-  const double rest = damping[bendings][i];
-  beside.setConstant(mass * rest);
-  for (std::size_t b = 0; b < bendings; ++b) more[b] = mass * (damping[b][i] - rest);
-  k.viscous.block(from, from, size, size) = of_modes(w.blocks, i, more, beside);
-}
-
 /// A matrix of the nodes as that of the whole block.
 template <class Matrix>
 Matrix of_nodes(const NodalMatrix& m, Eigen::Index size) {
@@ -229,19 +147,23 @@ Matrix of_nodes(const NodalMatrix& m, Eigen::Index size) {
 template <class Matrix>
 BlockEquations<Matrix> equations_of(const StiffnessInputs& w, std::size_t i) {
   using Vector = typename BlockEquations<Matrix>::Vector;
-  constexpr bool bends = Matrix::RowsAtCompileTime == Eigen::Dynamic;
-  const auto size =
-      static_cast<Eigen::Index>(degrees_of_freedom + 2 * w.blocks.bending.modes_of(i));
+  constexpr bool bends = std::is_same_v<Matrix, BodyMatrix>;
+  const Eigen::Index size = components_of(w.blocks, i);
   BlockEquations<Matrix> k;
-  k.mass = of_nodes<Matrix>(mass_matrix(w.masses, i), size);
-  k.viscous = of_nodes<Matrix>(viscous_matrix(w.blocks, w.masses, i), size);
   k.parts = w.points == nullptr ? faces_all_round(w, i) : points_near(w, i);
-  k.elastic = of_nodes<Matrix>(elastic_matrix(w.blocks, i), size);
   const Rotation r = rotation(deformation(w.blocks, w.state.x, w.state.y, i));
+  const NodalMatrix elastic = elastic_matrix(w.blocks, i),
+                    viscous = viscous_matrix(w.blocks, w.masses, i);
   if constexpr (bends) {
-    k.boundary = boundary_of_modes(w, i, r, size);
-    add_modes(k, w, i);
+    k.mass = Matrix::Zero(size, size);
+    body_mass(w.blocks, w.masses, i).add_to(k.mass, 1.0);
+    k.elastic = of_body(elastic, stiffness_of_modes(w.blocks, i));
+    k.viscous = of_body(viscous, viscosity_of_modes(w.blocks, w.masses, i));
+    k.boundary = boundary_of_body(w.blocks, w.springs, r, i);
   } else {
+    k.mass = mass_matrix(w.masses, i);
+    k.elastic = elastic;
+    k.viscous = viscous;
     k.boundary = boundary_matrix(w.blocks, w.springs, r, i);
   }
   k.bolts = of_nodes<Matrix>(
@@ -249,8 +171,8 @@ BlockEquations<Matrix> equations_of(const StiffnessInputs& w, std::size_t i) {
       size);
   k.contacts = k.dashpots = of_nodes<Matrix>(NodalMatrix::Zero(), size);
   for (const SpringOnBlock& p : k.parts) {
-    const Vector normal = at_corner_of<Vector>(w.blocks, i, p, p.normal),
-                 tangent = at_corner_of<Vector>(w.blocks, i, p, p.tangent);
+    const Vector normal = at_corner_of<Vector>(w.blocks, p, p.normal),
+                 tangent = at_corner_of<Vector>(w.blocks, p, p.tangent);
     k.contacts += p.kn * normal * normal.transpose() + p.ks * tangent * tangent.transpose();
     if (p.dashpot > 0.0) k.dashpots += p.dashpot * normal * normal.transpose();
     if (p.shear_dashpot > 0.0) k.dashpots += p.shear_dashpot * tangent * tangent.transpose();
@@ -259,9 +181,7 @@ BlockEquations<Matrix> equations_of(const StiffnessInputs& w, std::size_t i) {
 }
 
 template BlockEquations<NodalMatrix> equations_of(const StiffnessInputs&, std::size_t);
-template BlockEquations<EquationMatrix> equations_of(const StiffnessInputs&, std::size_t);
-template NodalVector at_corner_of(const BlockSet&, std::size_t, const SpringOnBlock&, Vec2);
-template Eigen::VectorXd at_corner_of(const BlockSet&, std::size_t, const SpringOnBlock&, Vec2);
+template BlockEquations<BodyMatrix> equations_of(const StiffnessInputs&, std::size_t);
 
 std::uint64_t equations_hash(const StiffnessInputs& w, std::size_t i) {
   const BlockSet& b = w.blocks;

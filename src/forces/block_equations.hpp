@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <type_traits>
 #include <vector>
 
 #include "attachments/bolts.hpp"
@@ -45,11 +46,11 @@ struct SpringOnBlock {
 };
 
 /// Equations M a + (C + D) v + K x = f of one block in its own frame, for the components of its
-/// nodes, and of its modes if it bends (Matrix: EquationMatrix); they determine the step that it
+/// nodes, and of its modes if it bends (Matrix: BodyMatrix); they determine the step that it
 /// allows.
 template <class Matrix>
 struct BlockEquations {
-  using Vector = Eigen::Matrix<double, Matrix::RowsAtCompileTime, 1>;
+  using Vector = std::conditional_t<std::is_same_v<Matrix, NodalMatrix>, NodalVector, BodyVector>;
   Matrix mass;                       ///< M
   Matrix viscous;                    ///< D of the strain damping, taken with the new velocity
   Matrix dashpots;                   ///< C of contacts, taken with the old velocity
@@ -60,23 +61,22 @@ struct BlockEquations {
   Matrix stiffness() const { return elastic + boundary + bolts + contacts; }
 };
 
-/// The matrices of a block that bends.
-using EquationMatrix = Eigen::MatrixXd;
-
-/// Unit forces along `direction` at the corner of a spring, on the nodes and modes of block i (q_c
-/// in theory 7.2). Vector: of BlockEquations.
+/// Unit forces along `direction` at the corner of a spring, on the nodes and modes of its block
+/// (q_c in theory 7.2). Vector: of BlockEquations.
 template <class Vector>
-Vector at_corner_of(const BlockSet& blocks, std::size_t i, const SpringOnBlock& spring,
-                    Vec2 direction);
+Vector at_corner_of(const BlockSet& b, const SpringOnBlock& spring, Vec2 direction) {
+  if constexpr (std::is_same_v<Vector, BodyVector>) {
+    return at_corner(b, spring.corner, direction);
+  } else {
+    return along(spring.weight, direction);
+  }
+}
 
-/// Matrix: NodalMatrix, of blocks that do not bend, or EquationMatrix.
+/// Matrix: NodalMatrix, of blocks that do not bend, or BodyMatrix.
 template <class Matrix>
 BlockEquations<Matrix> equations_of(const StiffnessInputs& inputs, std::size_t i);
 extern template BlockEquations<NodalMatrix> equations_of(const StiffnessInputs&, std::size_t);
-extern template BlockEquations<EquationMatrix> equations_of(const StiffnessInputs&, std::size_t);
-extern template NodalVector at_corner_of(const BlockSet&, std::size_t, const SpringOnBlock&, Vec2);
-extern template Eigen::VectorXd at_corner_of(const BlockSet&, std::size_t, const SpringOnBlock&,
-                                             Vec2);
+extern template BlockEquations<BodyMatrix> equations_of(const StiffnessInputs&, std::size_t);
 
 /// A hash of everything in the equations of block i that may change with the list of faces, stages
 /// or masses; 0: the equations change with the state, too.

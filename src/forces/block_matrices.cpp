@@ -10,6 +10,40 @@ NodalVector along(const NodeWeights& w, Vec2 direction) {
   return nodal(h);
 }
 
+BodyVector body_vector(const BlockSet& b, const Nodes& x, const Nodes& y, const ModeVectors& modes,
+                       std::size_t i) {
+  BodyVector u(components_of(b, i));
+  u.head<degrees_of_freedom>() = nodal(x, y, i);
+  const BlockModes own = b.modes(i);
+  for (std::size_t a = 0; a < own.count; ++a) {
+    const Vec2 q = modes[own[a]];
+    u.segment<2>(row_of_node(nodes_per_block + a)) << q.x, q.y;
+  }
+  return u;
+}
+
+void store(const BodyVector& u, const BlockSet& b, Nodes& x, Nodes& y, ModeVectors& modes,
+           std::size_t i) {
+  store(vectors_of(u.head<degrees_of_freedom>()), x, y, i);
+  const BlockModes own = b.modes(i);
+  for (std::size_t a = 0; a < own.count; ++a) {
+    const Eigen::Index row = row_of_node(nodes_per_block + a);
+    modes.set(own[a], {u[row], u[row + 1]});
+  }
+}
+
+BodyVector at_corner(const BlockSet& b, Id v, Vec2 force) {
+  const std::size_t i = b.vertex_block[v];
+  const BlockModes modes = b.modes(i);
+  BodyVector on(components_of(b, i));
+  on.head<degrees_of_freedom>() = along(weights_of(b.weight, v), force);
+  for (std::size_t a = 0; a < modes.count; ++a) {
+    const double h = modes.of(a, v - b.vertex_begin[i]);
+    on.segment<2>(row_of_node(nodes_per_block + a)) << h * force.x, h * force.y;
+  }
+  return on;
+}
+
 void add_at(NodalMatrix& m, const NodeWeights& w, const Eigen::Matrix2d& c) {
   for (std::size_t k = 0; k < nodes_per_block; ++k) {
     for (std::size_t l = 0; l < nodes_per_block; ++l) {
@@ -83,30 +117,100 @@ NodalMatrix mass_matrix(const Masses& masses, std::size_t i) {
   return m;
 }
 
+namespace {
+
+/// Stiffness of boundary spring q in the frame of its block, whose rotation is r.
+Eigen::Matrix2d stiffness_of_spring(const BoundarySprings& springs, Id q, const Rotation& r) {
+  Eigen::Matrix2d turn, k;
+  turn << r.c, r.s, -r.s, r.c;
+  k << springs.kxx[q], springs.kxy[q], springs.kxy[q], springs.kyy[q];
+  return turn * k * turn.transpose();
+}
+
+}  // namespace
+
 NodalMatrix boundary_matrix(const BlockSet& b, const BoundarySprings& springs, const Rotation& r,
                             std::size_t i) {
-  Eigen::Matrix2d turn;
-  turn << r.c, r.s, -r.s, r.c;
   NodalMatrix m = NodalMatrix::Zero();
-  for (Id q = springs.block_begin[i]; q < springs.block_begin[i + 1]; ++q) {
-    Eigen::Matrix2d k;
-    k << springs.kxx[q], springs.kxy[q], springs.kxy[q], springs.kyy[q];
-    k = turn * k * turn.transpose();
-    add_at(m, weights_of(b.weight, springs.vertex[q]), k);
+  for (Id q = springs.block_begin[i]; q < springs.block_begin[i + 1]; ++q)
+    add_at(m, weights_of(b.weight, springs.vertex[q]), stiffness_of_spring(springs, q, r));
+  return m;
+}
+
+BodyMatrix boundary_of_body(const BlockSet& b, const BoundarySprings& s, const Rotation& r,
+                            std::size_t i) {
+  const Eigen::Index size = components_of(b, i);
+  BodyMatrix m = BodyMatrix::Zero(size, size);
+  for (Id q = s.block_begin[i]; q < s.block_begin[i + 1]; ++q) {
+    Eigen::MatrixXd both(size, 2);
+    both.col(0) = at_corner(b, s.vertex[q], {1.0, 0.0});
+    both.col(1) = at_corner(b, s.vertex[q], {0.0, 1.0});
+    m += both * stiffness_of_spring(s, q, r) * both.transpose();
   }
   return m;
 }
 
-NodalMatrix rotated(const NodalMatrix& k, const Rotation& r) {
-  Eigen::Matrix2d q;
-  q << r.c, -r.s, r.s, r.c;
-  NodalMatrix out;
-  for (Eigen::Index row = 0; row < k.rows(); row += 2) {
-    for (Eigen::Index column = 0; column < k.cols(); column += 2) {
-      out.block<2, 2>(row, column) = q * k.block<2, 2>(row, column) * q.transpose();
+namespace {
+
+/// A matrix of the modes of a block: `beside` on the diagonal, and e_b e_b^T times more[b].
+BodyMatrix of_modes(const BlockSet& b, std::size_t i, const std::array<double, bendings>& more,
+                    const Eigen::VectorXd& beside) {
+  const BlockModes modes = b.modes(i);
+  BodyMatrix matrix = beside.asDiagonal();
+  for (std::size_t k = 0; k < bendings; ++k) {
+    Eigen::VectorXd e(beside.size());
+    for (std::size_t a = 0; a < modes.count; ++a) {
+      const Vec2 of_mode = b.bending.axis[k][modes[a]];
+      e.segment<2>(row_of_node(a)) << of_mode.x, of_mode.y;
     }
+    matrix += more[k] * e * e.transpose();
   }
-  return out;
+  return matrix;
+}
+
+}  // namespace
+
+BodyMatrix stiffness_of_modes(const BlockSet& b, std::size_t i) {
+  const BlockModes modes = b.modes(i);
+  if (modes.count == 0) return {};
+  Eigen::VectorXd beside(row_of_node(modes.count));
+  for (std::size_t a = 0; a < modes.count; ++a)
+    beside.segment<2>(row_of_node(a)).setConstant(b.bending.stiffness[modes[a]]);
+  std::array<double, bendings> more{};
+  for (std::size_t k = 0; k < bendings; ++k) more[k] = -b.bending.less[k][i];
+  return of_modes(b, i, more, beside);
+}
+
+BodyMatrix viscosity_of_modes(const BlockSet& b, const Masses& masses, std::size_t i) {
+  const Eigen::Index size = row_of_node(b.bending.modes_of(i));
+  const auto& rate = masses.mode_damping;
+  if (size == 0 || rate[0].empty()) return BodyMatrix::Zero(size, size);
+  const double mass = 1.0 / masses.mode_inverse[i], rest = rate[bendings][i];
+  std::array<double, bendings> more{};
+  for (std::size_t k = 0; k < bendings; ++k) more[k] = mass * (rate[k][i] - rest);
+  return of_modes(b, i, more, Eigen::VectorXd::Constant(size, mass * rest));
+}
+
+BodyMatrix of_body(const NodalMatrix& nodes, const BodyMatrix& modes) {
+  BodyMatrix all = BodyMatrix::Zero(nodes.rows() + modes.rows(), nodes.cols() + modes.cols());
+  all.topLeftCorner<degrees_of_freedom, degrees_of_freedom>() = nodes;
+  all.bottomRightCorner(modes.rows(), modes.cols()) = modes;
+  return all;
+}
+
+void BodyMass::add_to(BodyMatrix& k, double factor) const {
+  k.topLeftCorner<degrees_of_freedom, degrees_of_freedom>() += factor * nodes;
+  k.diagonal().tail(k.rows() - nodes.rows()).array() += factor * mode;
+}
+
+BodyVector operator*(const BodyMass& mass, const BodyVector& u) {
+  BodyVector product = mass.mode * u;
+  product.head<degrees_of_freedom>() = mass.nodes * u.head<degrees_of_freedom>();
+  return product;
+}
+
+BodyMass body_mass(const BlockSet& b, const Masses& masses, std::size_t i) {
+  return {mass_matrix(masses, i), b.bending.modes_of(i) == 0 ? 0.0 : 1.0 / masses.mode_inverse[i]};
 }
 
 }  // namespace edda

@@ -103,7 +103,7 @@ double critical_step_of(const BlockEquations<Matrix>& q, const Damping& damping)
 template <class Body>
 auto with_equations(const StiffnessInputs& w, std::size_t i, Body body) {
   if (w.blocks.bending.modes_of(i) == 0) return body(equations_of<NodalMatrix>(w, i));
-  return body(equations_of<EquationMatrix>(w, i));
+  return body(equations_of<BodyMatrix>(w, i));
 }
 
 /// The smallest exact step of all blocks, and the first block that has it.
@@ -172,10 +172,9 @@ Smallest smallest_step(BlockSteps& steps, const std::vector<double>& estimates) 
   return found;
 }
 
-/// Finds which stiffness governs the step of block i: its parts in the fastest mode.
+/// Finds which stiffness governs the step of a block: its parts in the fastest mode.
 template <class Matrix>
-void explain(StepBound& bound, const StiffnessInputs& w, std::size_t i,
-             const BlockEquations<Matrix>& k) {
+void explain(StepBound& bound, const StiffnessInputs& w, const BlockEquations<Matrix>& k) {
   using Vector = typename BlockEquations<Matrix>::Vector;
   const double h = bound.critical_step;
   const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix> solver(k.stiffness(),
@@ -188,8 +187,8 @@ void explain(StepBound& bound, const StiffnessInputs& w, std::size_t i,
   bound.contact_part = 1.0 - bound.elastic_part - bound.boundary_part - bound.bolt_part;
   double largest = 0.0;
   for (const SpringOnBlock& p : k.parts) {
-    const double hn = at_corner_of<Vector>(w.blocks, i, p, p.normal).dot(mode),
-                 ht = at_corner_of<Vector>(w.blocks, i, p, p.tangent).dot(mode);
+    const double hn = at_corner_of<Vector>(w.blocks, p, p.normal).dot(mode),
+                 ht = at_corner_of<Vector>(w.blocks, p, p.tangent).dot(mode);
     const double part = p.kn * hn * hn + p.ks * ht * ht;
     if (part > largest) {
       largest = part;
@@ -221,8 +220,7 @@ StepBound step_bound(const StiffnessInputs& inputs, StepCache* known) {
   bound.critical_step = critical.step;
   bound.block = critical.block;
   if (bound.block == no_id) return bound;
-  with_equations(inputs, bound.block,
-                 [&](const auto& k) { explain(bound, inputs, bound.block, k); });
+  with_equations(inputs, bound.block, [&](const auto& k) { explain(bound, inputs, k); });
   return bound;
 }
 

@@ -38,9 +38,9 @@ void fill_viscosity(Masses& masses, const BlockSet& b, const Damping& damping) {
   if (!b.bending.any()) return;
   for (std::vector<double>& rate : masses.mode_damping) rate.assign(in_groups(b.size()), 0.0);
   parallel_for(b.size(), [&](std::size_t i) {
+    const std::array<double, bendings + 1> along = stiffness_along(b.bending, b.modes(i), i);
     for (std::size_t k = 0; k <= bendings; ++k) {
-      const double stiffness = k < bendings ? b.bending.along[k][i] : b.bending.beside[i];
-      const double square = std::max(stiffness, 0.0) * masses.mode_inverse[i];
+      const double square = std::max(along[k], 0.0) * masses.mode_inverse[i];
       masses.mode_damping[k][i] = damping.rayleigh ? damping.rayleigh->stiffness() * square
                                                    : 2.0 * b.damping[i] * std::sqrt(square);
     }

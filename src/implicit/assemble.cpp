@@ -5,7 +5,7 @@
 
 #include "base/parallel.hpp"
 #include "contacts/face_reading.hpp"
-#include "forces/elastic.hpp"
+#include "implicit/body_forces.hpp"
 
 namespace edda {
 namespace {
@@ -16,15 +16,13 @@ constexpr double single = 10.0;  // times that of all blocks together (root of t
 /// Corner forces of a face as generalised forces on the block of this row and on its partner: a
 /// spring of stiffness p adds p u u^T and p u w^T to the row.
 struct Directions {
-  NodalVector own, other;
+  BodyVector own, other;
 };
 
 Directions on_both(const BlockSet& b, const FaceSet& c, std::size_t k, const CornerForces& f,
                    bool of_edge) {
-  const NodalVector edge = along(weights_of(b.weight, c.edge[k]), f.p1) +
-                           along(weights_of(b.weight, c.edge_end[k]), f.p2);
-  const NodalVector facing = along(weights_of(b.weight, c.facing[k]), f.q1) +
-                             along(weights_of(b.weight, c.facing_end[k]), f.q2);
+  const BodyVector edge = at_corner(b, c.edge[k], f.p1) + at_corner(b, c.edge_end[k], f.p2);
+  const BodyVector facing = at_corner(b, c.facing[k], f.q1) + at_corner(b, c.facing_end[k], f.q2);
   return of_edge ? Directions{edge, facing} : Directions{facing, edge};
 }
 
@@ -55,11 +53,14 @@ bool assemble_row(ImplicitSolver& s, const ImplicitScene& scene, const ImplicitS
   const double h = settings.step;
   const Rotation r = rotation(deformation(b, state.x, state.y, i));
   const Rotation none{1.0, 0.0, 2.0, 0.5};
-  NodalMatrix own = rotated(s.elastic[i], r);
-  if (settings.dynamic)
-    own += (2.0 / h) * viscous_matrix(b, scene.masses, i, deformation(b, state.x, state.y, i));
+  BodyMatrix own = rotated(s.elastic[i], r);
+  if (settings.dynamic) {
+    const Deformation f = deformation(b, state.x, state.y, i);
+    own += (1.0 / h) * of_body(viscous_matrix(b, scene.masses, i, f),
+                               rotated(viscosity_of_modes(b, scene.masses, i), r));
+  }
   if (scene.springs.block_begin[i] != scene.springs.block_begin[i + 1]) {
-    own += boundary_matrix(b, scene.springs, none, i);
+    own += boundary_of_body(b, scene.springs, none, i);
   }
   s.matrix.clear_row(row);
   bool known = true;
@@ -79,8 +80,9 @@ bool assemble_row(ImplicitSolver& s, const ImplicitScene& scene, const ImplicitS
                      sb = on_both(b, c, k, spring.along_b, of_edge);
     const auto add = [&](const Directions& u, const Directions& v, double stiffness) {
       if (stiffness == 0.0) return;
-      own += stiffness * u.own * v.own.transpose();
-      if (slot != no_id) s.matrix.at(row, slot) += stiffness * u.own * v.other.transpose();
+      const BodyVector force = stiffness * u.own;
+      own.noalias() += force * v.own.transpose();
+      if (slot != no_id) s.matrix.at(row, slot).noalias() += force * v.other.transpose();
     };
     add(na, na, spring.normal.aa);
     add(na, nb, spring.normal.ab);
@@ -90,7 +92,7 @@ bool assemble_row(ImplicitSolver& s, const ImplicitScene& scene, const ImplicitS
     add(sb, sb, spring.shear_b);
   });
   s.stiffest[row] = own.diagonal().maxCoeff();
-  own += (2.0 / (h * h) + 2.0 * settings.mass_damping / h) * s.mass[i];
+  s.mass[i].add_to(own, 2.0 / (h * h) + 2.0 * settings.mass_damping / h);
   s.matrix.at(row, s.matrix.slot(row, row)) += own;
   return known;
 }
@@ -127,33 +129,18 @@ void set_pattern(ImplicitSolver& s, const ImplicitScene& scene, const State& sta
 void lay_out(ImplicitSolver& s, const ImplicitScene& scene,
              const std::vector<std::vector<Id>>& columns) {
   const BlockSet& b = scene.blocks;
-  s.matrix.set_pattern(columns);
+  std::vector<Eigen::Index> lines;
+  for (const Id i : s.block_of) lines.push_back(components_of(b, i));
+  s.matrix.set_pattern(columns, lines);
   s.linear.forget_pattern();
   s.stiffest.assign(columns.size(), 0.0);
   s.elastic.resize(b.size());
   s.mass.resize(b.size());
   parallel_for(s.block_of.size(), [&](std::size_t row) {
     const Id i = s.block_of[row];
-    s.elastic[i] = elastic_matrix(b, i);
-    s.mass[i] = mass_matrix(scene.masses, i);
+    s.elastic[i] = of_body(elastic_matrix(b, i), stiffness_of_modes(b, i));
+    s.mass[i] = body_mass(b, scene.masses, i);
   });
-}
-
-NodalVector viscous_force(const ImplicitSolver& s, const ImplicitScene& scene,
-                          const ImplicitSettings& settings, const State& state, std::size_t row) {
-  const BlockSet& b = scene.blocks;
-  const Id i = s.block_of[row];
-  if (!settings.dynamic || scene.masses.viscosity.empty()) return NodalVector::Zero();
-  const NodeVectors rate = (1.0 / settings.step) * vectors_of(part_of(s.moved, row));
-  // With v_{n+1} = 2 D/h - v_n: twice the change of U in the step over h, less its rate before the
-  // step.
-  const StrainFrame before = strain_frame(deformation(b, s.start_x, s.start_y, i));
-  const StrainTerms mean = strain_rate_over(before, gradient_of(b, rate, i), settings.step),
-                    was = strain_rate(before, deformation(b, state.vx, state.vy, i));
-  const PiolaStress p = viscous_stress(
-      b, scene.masses.viscosity[i], i, strain_frame(deformation(b, state.x, state.y, i)),
-      {2.0 * mean.xx - was.xx, 2.0 * mean.yy - was.yy, 2.0 * mean.xy - was.xy});
-  return nodal(elastic_forces(b, p, i));
 }
 
 bool assemble(ImplicitSolver& s, const ImplicitScene& scene, const ImplicitSettings& settings,
@@ -171,16 +158,18 @@ double measure_residual(ImplicitSolver& s, const ImplicitScene& scene,
   const BlockSet& b = scene.blocks;
   const double h = settings.step, a = settings.mass_damping, balance = settings.balance;
   const double gravity = norm(scene.gravity);
-  s.residual.resize(static_cast<Eigen::Index>(degrees_of_freedom * s.block_of.size()));
+  s.residual.resize(s.matrix.lines());
   s.error.assign(s.block_of.size(), 0.0);
   s.carried.resize(s.block_of.size());
   parallel_for(s.block_of.size(), [&](std::size_t row) {
     const Id i = s.block_of[row];
-    NodalVector moved = (2.0 / (h * h) + 2.0 * a / h) * part_of(s.moved, row);
-    if (settings.dynamic) moved -= (2.0 / h + a) * nodal(state.vx, state.vy, i);
-    const NodalVector force = nodal(forces.x, forces.y, i), inertia = s.mass[i] * moved;
-    const NodalVector left = force + viscous_force(s, scene, settings, state, row) - inertia;
-    part_of(s.residual, row) = left;
+    BodyVector moved = (2.0 / (h * h) + 2.0 * a / h) * s.matrix.part(s.moved, row);
+    if (settings.dynamic)
+      moved -= (2.0 / h + a) * body_vector(b, state.vx, state.vy, state.bend_rate, i);
+    const BodyVector force = body_vector(b, forces.x, forces.y, forces.modes, i),
+                     inertia = s.mass[i] * moved;
+    const BodyVector left = force + viscous_force(s, scene, settings, state, row) - inertia;
+    s.matrix.part(s.residual, row) = left;
     double carried = b.mass[i] * gravity + force.norm() + inertia.norm();
     c.for_faces(b.vertex_begin[i], b.vertex_begin[i + 1], [&](Id k, bool) {
       const Vec2 on = force_on_facing(c, k);

@@ -20,11 +20,6 @@ void lay_out(ImplicitSolver& solver, const ImplicitScene& scene,
 bool assemble(ImplicitSolver& solver, const ImplicitScene& scene, const ImplicitSettings& settings,
               const State& state, const Pose& pose, const FaceSet& faces);
 
-/// Viscous force of strain damping on the block of that row at its trial position, N; zero in a
-/// static analysis.
-NodalVector viscous_force(const ImplicitSolver& solver, const ImplicitScene& scene,
-                          const ImplicitSettings& settings, const State& state, std::size_t row);
-
 /// residual = f(x_n + D) - M (2 D/h^2 - 2 v_n/h) - a M (2 D/h - v_n), N, with the viscous force
 /// included in f. Returns the largest ratio of the residual to its tolerance, of single blocks and
 /// of all together: up to 1 the step is in balance; NaN where a block has lost its shape.

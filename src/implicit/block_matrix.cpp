@@ -4,28 +4,38 @@
 
 namespace edda {
 
-void BlockMatrix::set_pattern(const std::vector<std::vector<Id>>& columns) {
+void BlockMatrix::set_pattern(const std::vector<std::vector<Id>>& columns,
+                              const std::vector<Eigen::Index>& lines) {
   begin_.assign(1, 0);
   column_.clear();
   for (const std::vector<Id>& row : columns) {
     column_.insert(column_.end(), row.begin(), row.end());
     begin_.push_back(static_cast<Id>(column_.size()));
   }
-  const auto n = static_cast<Eigen::Index>(degrees_of_freedom * rows());
-  const auto all = static_cast<Eigen::Index>(entries * blocks());
-  scalar_.resize(n, n);
+  line_.assign(1, 0);
+  for (const Eigen::Index height : lines) line_.push_back(line_.back() + height);
+  offset_.clear();
+  Eigen::Index all = 0;
+  for (std::size_t r = 0; r < rows(); ++r) {
+    Eigen::Index width = 0;
+    for (const Id c : columns[r]) {
+      offset_.push_back(width);
+      width += lines[c];
+    }
+    all += width * lines[r];
+  }
+  scalar_.resize(line_.back(), line_.back());
   scalar_.resizeNonZeros(all);
   int* outer = scalar_.outerIndexPtr();
   int* inner = scalar_.innerIndexPtr();
   std::fill_n(scalar_.valuePtr(), all, 0.0);
   int next = 0;
   for (std::size_t r = 0; r < rows(); ++r) {
-    for (std::size_t line = 0; line < degrees_of_freedom; ++line) {
+    for (Eigen::Index line = 0; line < lines[r]; ++line) {
       *outer++ = next;
-      for (Id q = begin_[r]; q < begin_[r + 1]; ++q) {
-        for (std::size_t c = 0; c < degrees_of_freedom; ++c) {
-          inner[next++] = static_cast<int>(degrees_of_freedom * column_[q] + c);
-        }
+      for (const Id column : columns[r]) {
+        for (Eigen::Index c = 0; c < lines[column]; ++c)
+          inner[next++] = static_cast<int>(line_[column] + c);
       }
     }
   }
@@ -54,14 +64,22 @@ Id BlockMatrix::slot(Id r, Id c) const {
   return found != last && *found == c ? static_cast<Id>(found - first) : no_id;
 }
 
+std::size_t BlockMatrix::diagonal_entries() const {
+  Eigen::Index sum = 0;
+  for (std::size_t r = 0; r < rows(); ++r) sum += lines(r) * lines(r);
+  return static_cast<std::size_t>(sum);
+}
+
 BlockMatrix::Block BlockMatrix::at(Id r, Id slot) {
-  const std::size_t line = degrees_of_freedom * (begin_[r + 1] - begin_[r]);
-  double* first = scalar_.valuePtr() + entries * begin_[r] + degrees_of_freedom * slot;
-  return Block(first, Eigen::OuterStride<>(static_cast<Eigen::Index>(line)));
+  const int* const outer = scalar_.outerIndexPtr() + line_[r];
+  const Id q = begin_[r] + slot;
+  return Block(scalar_.valuePtr() + outer[0] + offset_[q], lines(r), lines(column_[q]),
+               Eigen::OuterStride<>(outer[1] - outer[0]));
 }
 
 void BlockMatrix::clear_row(Id r) {
-  std::fill_n(scalar_.valuePtr() + entries * begin_[r], entries * (begin_[r + 1] - begin_[r]), 0.0);
+  const int* const outer = scalar_.outerIndexPtr();
+  std::fill(scalar_.valuePtr() + outer[line_[r]], scalar_.valuePtr() + outer[line_[r + 1]], 0.0);
 }
 
 }  // namespace edda

@@ -8,8 +8,9 @@
 
 #include <Eigen/Sparse>
 #include <cstdint>
-#include <memory>
+#include <vector>
 
+#include "base/block_cholesky.hpp"
 #include "implicit/block_matrix.hpp"
 
 namespace edda {
@@ -38,13 +39,12 @@ struct SolverMemory {
 
 class LinearSolver {
  public:
-  LinearSolver();
-  ~LinearSolver();
+  LinearSolver() = default;
   /// A copy starts without the factor.
-  LinearSolver(const LinearSolver&);
+  LinearSolver(const LinearSolver&) {}
   LinearSolver& operator=(const LinearSolver&) = delete;
-  LinearSolver(LinearSolver&&) noexcept;
-  LinearSolver& operator=(LinearSolver&&) noexcept;
+  LinearSolver(LinearSolver&&) = default;
+  LinearSolver& operator=(LinearSolver&&) = default;
 
   /// Declares the pattern of the matrix changed: its rows are ordered again for the next factor.
   void forget_pattern();
@@ -55,26 +55,25 @@ class LinearSolver {
   const SolverMemory& memory() const { return m_; }
   /// Continues from the memory of another solver; `a` has the present pattern (its values are
   /// overwritten).
-  bool recall(BlockMatrix& a, SolverMemory memory);
+  void recall(BlockMatrix& a, SolverMemory memory);
 
  private:
-  struct Factor;
   /// Conjugate gradients with the preconditioner in use, at most `most` iterations.
   bool iterate(const BlockMatrix& a, const Eigen::VectorXd& b, double tolerance, double most,
                Eigen::VectorXd& x);
   bool solve_by_diagonal(const BlockMatrix& a, const Eigen::VectorXd& b, double tolerance,
                          Eigen::VectorXd& x);
-  bool solve_by_factor(const BlockMatrix& a, const Eigen::VectorXd& b, double tolerance,
+  bool solve_by_factor(BlockMatrix& a, const Eigen::VectorXd& b, double tolerance,
                        Eigen::VectorXd& x);
-  bool factorise(const BlockMatrix& a);
+  void factorise(BlockMatrix& a);
   void order(const BlockMatrix& a);
   void invert_diagonal(BlockMatrix& a);
   double work_by_factor(const BlockMatrix& a) const;    ///< per iteration, multiplications
   double work_by_diagonal(const BlockMatrix& a) const;  ///< the same
 
-  std::unique_ptr<Factor> factor_;
-  std::vector<NodalMatrix> diagonal_;  ///< inverses of the diagonal blocks
-  bool ordered_ = false;               ///< the factor has the symbolic factorisation of the pattern
+  BlockCholesky factor_;
+  std::vector<BodyMatrix> diagonal_;  ///< inverses of the diagonal blocks
+  bool ordered_ = false;              ///< the factor has the symbolic factorisation of the pattern
   SolverMemory m_;
   int last_iterations_ = 0;
   SolverCounts counts_;

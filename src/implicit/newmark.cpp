@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "base/parallel.hpp"
-#include "forces/elastic.hpp"
 #include "implicit/assemble.hpp"
+#include "implicit/body_forces.hpp"
 
 namespace edda {
 namespace {
@@ -14,18 +14,9 @@ constexpr int most_iterations = 6;
 // Tolerances of the global solve: its residual is to be a small part of that of an iteration.
 constexpr double tightest = 1e-9, loosest = 1e-2, margin = 0.03;
 
-double strain_energy_of(const BlockSet& b, const State& s, std::size_t i) {
-  const Deformation f = deformation(b, s.x, s.y, i);
-  const Tensor e = corotated_strain(f, rotation(f));
-  const double strain = strain_energy(e, e, b.volume[i], b.lame_lambda[i], b.lame_mu[i]);
-  if (b.initial_xx.empty()) return strain;
-  return strain +
-         initial_energy(f, f, initial_stress(b, i), b.volume[i], b.lame_lambda[i], b.lame_mu[i]);
-}
-
 void place_all(const BlockSet& b, const State& s, Pose& pose) {
   parallel_for(b.size(), [&](std::size_t i) {
-    if (is_free(b, s, i)) place_vertices(b, s.x, s.y, i, pose.x, pose.y);
+    if (is_free(b, s, i)) place_vertices(b, s.x, s.y, s.bend, i, pose.x, pose.y);
   });
 }
 
@@ -45,20 +36,21 @@ void begin(ImplicitSolver& s, const ImplicitScene& scene, const State& state, Po
   s.faces_before = c;
   s.start_x = state.x;
   s.start_y = state.y;
+  s.start_bend = state.bend;
   pose.x1 = pose.x;
   pose.y1 = pose.y;
   begin_springs(s.springs, c);
   if (s.pattern_of != c.rebuilds) set_pattern(s, scene, state, c);
   s.pattern_of = c.rebuilds;
-  s.moved =
-      Eigen::VectorXd::Zero(static_cast<Eigen::Index>(degrees_of_freedom * s.block_of.size()));
+  s.moved = Eigen::VectorXd::Zero(s.matrix.lines());
   if (s.mean_velocity_x[0].empty()) {
     s.mean_velocity_x = state.vx;
     s.mean_velocity_y = state.vy;
+    s.mean_bend_rate = state.bend_rate;
   }
   s.energy.resize(b.size());
   parallel_for(b.size(), [&](std::size_t i) {
-    s.energy[i] = is_free(b, state, i) ? strain_energy_of(b, state, i) : 0.0;
+    s.energy[i] = is_free(b, state, i) ? stored_energy(scene, state, i) : 0.0;
   });
   s.iterations = 0;
   s.switched = 0;
@@ -70,8 +62,9 @@ void move(ImplicitSolver& s, const ImplicitScene& scene, double part, State& sta
   s.moved = s.base + part * s.correction;
   parallel_for(s.block_of.size(), [&](std::size_t row) {
     const Id i = s.block_of[row];
-    store(vectors_of(s.start_x, s.start_y, i) + vectors_of(part_of(s.moved, row)), state.x, state.y,
-          i);
+    const BodyVector at = body_vector(scene.blocks, s.start_x, s.start_y, s.start_bend, i) +
+                          s.matrix.part(s.moved, row);
+    store(at, scene.blocks, state.x, state.y, state.bend, i);
   });
   place_all(scene.blocks, state, pose);
   s.last_displacement = largest_move(pose);
@@ -80,6 +73,7 @@ void move(ImplicitSolver& s, const ImplicitScene& scene, double part, State& sta
 void go_back(const ImplicitSolver& s, State& state, Pose& pose, FaceSet& c) {
   state.x = s.start_x;
   state.y = s.start_y;
+  state.bend = s.start_bend;
   pose.x = pose.x1;
   pose.y = pose.y1;
   c = s.faces_before;
@@ -103,14 +97,10 @@ bool solve(ImplicitSolver& s, const ImplicitScene& scene, const ImplicitSettings
 double dissipated(const ImplicitSolver& s, const ImplicitScene& scene,
                   const ImplicitSettings& settings, const State& state, const Pose& pose, Id row) {
   const Id i = s.block_of[row];
-  const BlockSet& b = scene.blocks;
-  const Deformation f = deformation(b, state.x, state.y, i);
-  const PiolaStress p = stress_in(b, i, f);
-  double sum = s.energy[i] - strain_energy_of(b, state, i);
-  const NodalVector step = part_of(s.moved, row);
-  const NodalVector velocity = nodal(state.vx, state.vy, i);
-  const NodeVectors forces = elastic_forces(b, p, i), moved = vectors_of(step);
-  for (std::size_t k = 0; k < nodes_per_block; ++k) sum -= dot(forces[k], moved[k]);
+  double sum = s.energy[i] - stored_energy(scene, state, i);
+  const BodyVector step = s.matrix.part(s.moved, row),
+                   velocity = body_vector(scene.blocks, state.vx, state.vy, state.bend_rate, i);
+  sum -= elastic_force(scene, state, i).dot(step);
   sum -= viscous_force(s, scene, settings, state, row).dot(step);
   const BoundarySprings& springs = scene.springs;
   for (Id q = springs.block_begin[i]; q < springs.block_begin[i + 1]; ++q) {
@@ -120,7 +110,7 @@ double dissipated(const ImplicitSolver& s, const ImplicitScene& scene,
                   uy * (springs.kxy[q] * ux + springs.kyy[q] * uy));
   }
   const double h = settings.step;
-  const NodalVector after = 2.0 / h * step - (settings.dynamic ? velocity : NodalVector::Zero());
+  const BodyVector after = 2.0 / h * step - (settings.dynamic ? 1.0 : 0.0) * velocity;
   sum += settings.mass_damping * step.dot(s.mass[i] * after);
   if (!settings.dynamic)
     sum += 0.5 * after.dot(s.mass[i] * after) + 0.5 * velocity.dot(s.mass[i] * velocity);
@@ -131,28 +121,36 @@ double dissipated(const ImplicitSolver& s, const ImplicitScene& scene,
 /// moments, x_{n+1} x f, act at the end of the step, but the momentum is that of v_n at x_n. The
 /// loss about the centre of mass, -sum D x M v_n, is returned as a rotation of the whole block; for
 /// a free block it is all that would slow its spin. Returns the energy added, J.
-double restore_angular_momentum(const ImplicitSolver& s, const NodalVector& before, State& state,
-                                Id row) {
+double restore_angular_momentum(const ImplicitSolver& s, const BlockSet& b,
+                                const BodyVector& before, State& state, Id row) {
   const Id i = s.block_of[row];
-  const NodalMatrix& mass = s.mass[i];
-  const NodalVector x = nodal(state.x, state.y, i), v = nodal(state.vx, state.vy, i),
-                    step = part_of(s.moved, row);
-  const auto sum = [](const NodalVector& of) { return resultant(vectors_of(of)); };
-  const auto moment = [](const NodalVector& arm, const NodalVector& of) {
+  const BodyMass& mass = s.mass[i];
+  const BodyVector x = body_vector(b, state.x, state.y, state.bend, i),
+                   v = body_vector(b, state.vx, state.vy, state.bend_rate, i),
+                   step = s.matrix.part(s.moved, row);
+  const auto sum = [](const BodyVector& of) {
+    return resultant(vectors_of(of.head<degrees_of_freedom>()));
+  };
+  const auto moment = [](const BodyVector& arm, const BodyVector& of) {
     double whole = 0.0;
     for (Eigen::Index k = 0; k < arm.size(); k += 2) {
       whole = whole + arm[k] * of[k + 1] - arm[k + 1] * of[k];
     }
     return whole;
   };
-  const NodalVector shift = nodal(at_every_node({1.0, 0.0}));
+  BodyVector shift = BodyVector::Zero(x.size());
+  shift.head<degrees_of_freedom>() = nodal(at_every_node({1.0, 0.0}));
   const double total = shift.dot(mass * shift);
   const Vec2 centre = 1.0 / total * sum(mass * x), moved = 1.0 / total * sum(mass * step);
-  const NodalVector momentum = mass * before;
+  const BodyVector momentum = mass * before;
   const double missing = cross(moved, sum(momentum)) - moment(step, momentum);
-  const NodalVector spin = nodal(rigid_velocities(vectors_of(x), centre, {}, 1.0));
+  BodyVector spin(x.size());
+  for (Eigen::Index k = 0; k < x.size(); k += 2) {
+    const Vec2 of_node = k < row_of_node(nodes_per_block) ? centre : Vec2{};
+    spin.segment<2>(k) << of_node.y - x[k + 1], x[k] - of_node.x;
+  }
   const double inertia = spin.dot(mass * spin), rate = missing / inertia;
-  store(vectors_of(v + rate * spin), state.vx, state.vy, i);
+  store(BodyVector(v + rate * spin), b, state.vx, state.vy, state.bend_rate, i);
   return rate * spin.dot(mass * v) + 0.5 * rate * rate * inertia;
 }
 
@@ -165,13 +163,15 @@ void finish(ImplicitSolver& s, const ImplicitScene& scene, const ImplicitSetting
   parallel_for(s.block_of.size(), [&](std::size_t row) {
     const Id i = s.block_of[row];
     damping_work[i] += dissipated(s, scene, settings, state, pose, static_cast<Id>(row));
-    const NodalVector before = nodal(state.vx, state.vy, i);
-    const NodalVector step = part_of(s.moved, row);
-    store(vectors_of(step / h), s.mean_velocity_x, s.mean_velocity_y, i);
-    store(settings.dynamic ? vectors_of(2.0 * step / h - before) : NodeVectors{}, state.vx,
-          state.vy, i);
+    const BlockSet& b = scene.blocks;
+    const BodyVector before = body_vector(b, state.vx, state.vy, state.bend_rate, i),
+                     step = s.matrix.part(s.moved, row);
+    store(BodyVector(step / h), b, s.mean_velocity_x, s.mean_velocity_y, s.mean_bend_rate, i);
+    const double goes_on = settings.dynamic ? 1.0 : 0.0;
+    store(BodyVector(goes_on * (2.0 / h * step - before)), b, state.vx, state.vy, state.bend_rate,
+          i);
     if (settings.dynamic) {
-      damping_work[i] -= restore_angular_momentum(s, before, state, static_cast<Id>(row));
+      damping_work[i] -= restore_angular_momentum(s, b, before, state, static_cast<Id>(row));
     }
   });
   account_springs(s.springs, c, pose, broken);
@@ -221,7 +221,7 @@ class Rounds {
     if (!first) s_.switched += changed;
     sum_faces(s_.on_faces, scene_.blocks, c_);
     gather_forces(forces_, scene_.blocks, state_, pose_, s_.on_faces, scene_.springs,
-                  scene_.gravity, scene_.loads);
+                  scene_.gravity, scene_.loads, scene_.locked);
     return measure_residual(s_, scene_, settings_, state_, c_, forces_);
   }
 
@@ -233,8 +233,9 @@ class Rounds {
     s_.correction.resize(s_.moved.size());
     parallel_for(s_.block_of.size(), [&](std::size_t row) {
       const Id i = s_.block_of[row];
-      part_of(s_.correction, row) =
-          settings_.step * nodal(s_.mean_velocity_x, s_.mean_velocity_y, i);
+      s_.matrix.part(s_.correction, row) =
+          settings_.step *
+          body_vector(scene_.blocks, s_.mean_velocity_x, s_.mean_velocity_y, s_.mean_bend_rate, i);
     });
     move(s_, scene_, 1.0, state_, pose_);
   }

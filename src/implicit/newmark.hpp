@@ -23,7 +23,10 @@ struct ImplicitScene {
   const LawTable& laws;
   const BoundarySprings& springs;
   Vec2 gravity;
-  LoadsNow loads = {};  ///< at the end of the step
+  LoadsNow loads = {};                   ///< at the end of the step
+  const ModeVectors& locked = no_modes;  ///< forces on modes that balance the initial stress
+                                         ///< (forces/bending_forces.hpp); none
+  static inline const ModeVectors no_modes;
 
   FaceScene faces(const Pose& pose) const { return {blocks, masses, pose, laws}; }
 };
@@ -54,13 +57,16 @@ struct ImplicitSolver {
   FaceSprings springs;
   std::vector<Id> row_of;                        ///< [nb] row of a free block, or no_id
   std::vector<Id> block_of;                      ///< [rows] block
-  std::vector<NodalMatrix> elastic, mass;        ///< [nb] in the block's own frame
+  std::vector<BodyMatrix> elastic;               ///< [nb] in the block's own frame, N/m
+  std::vector<BodyMass> mass;                    ///< [nb]
   std::uint64_t pattern_of = ~std::uint64_t{0};  ///< FaceSet::rebuilds of the list of faces that
                                                  ///< the pattern is for
   Nodes start_x, start_y;                  ///< [nodes][nb] positions at the start of the step, m
+  ModeVectors start_bend;                  ///< [modes] amplitudes there, m
   Nodes mean_velocity_x, mean_velocity_y;  ///< [nodes][nb] mean velocity in the last step, m/s
+  ModeVectors mean_bend_rate;              ///< [modes] the same of the modes, m/s
   FaceSet faces_before;                    ///< to be restored where the step is cut
-  // [degrees_of_freedom * rows] each:
+  // [matrix.lines()] each:
   Eigen::VectorXd moved;             ///< displacement of the step D, m
   Eigen::VectorXd residual;          ///< N
   Eigen::VectorXd base, correction;  ///< D of the last iteration, and its increment, m

@@ -88,11 +88,6 @@ GroupView view_of(const ModeLeap& leap, State& s) {
   return v;
 }
 
-/// w of the block's rotation, 1/s, at these velocities of its nodes.
-EDDA_INLINE double spin_of(const Rotation& r, const Deformation& l) {
-  return (r.c * (l.yx - l.xy) - r.s * (l.xx + l.yy)) * r.inverse;
-}
-
 EDDA_INLINE double spin_now(const GroupView& b, const GroupTurn& turn, std::size_t i,
                             std::size_t at) {
   return spin_of(turn.of(at),
@@ -256,8 +251,7 @@ double push_modes(State& s, const ModeLeap& leap, const Kick& kick, const Rotati
       decay.part[k] = -rate / (1.0 + rate);
     }
     ModeVectors& on = leap.damping->force;
-    couple = damp(view_of(leap.blocks.bending), {modes.first, modes.count}, decay, at_n, p,
-                  on.x.data(), on.y.data());
+    couple = damp(view_of(leap.blocks.bending), modes, decay, at_n, p, on.x.data(), on.y.data());
     for (std::size_t a = 0; a < modes.count; ++a) change.set(a, change[a] + p[a]);
     leap.damping->couple[i] += couple;
   }

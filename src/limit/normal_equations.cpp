@@ -7,7 +7,9 @@
 namespace edda {
 namespace {
 
-constexpr int block_side = BlockCholesky::side;
+constexpr int block_side = 3;  // of the equations of a body
+/// delta.
+constexpr double inertia = 1e-5;
 using Matrix = Eigen::SparseMatrix<double>;
 
 int blocks_of(const StandardForm& p) {
@@ -45,7 +47,9 @@ BlockCholesky::Pairs couples_of(const StandardForm& p) {
 }  // namespace
 
 NormalEquations::NormalEquations(const StandardForm& p)
-    : p_(p), factors_(blocks_of(p), couples_of(p)) {
+    : p_(p),
+      factors_(std::vector<int>(static_cast<std::size_t>(blocks_of(p)), block_side),
+               couples_of(p)) {
   for (Eigen::Index j = 0; j < p.a.cols(); ++j) {
     if (is_free(p, j) || !has_few_entries(p, j)) beside_columns_.push_back(j);
   }
@@ -54,21 +58,19 @@ NormalEquations::NormalEquations(const StandardForm& p)
 }
 
 void NormalEquations::find_places() {
-  constexpr auto width = static_cast<std::size_t>(block_side);
-  for (Eigen::Index i = 0; i < p_.a.rows(); ++i) {
-    const int row = static_cast<int>(i);
-    place_.push_back(width * static_cast<std::size_t>(factors_.place(row / block_side)) +
-                     static_cast<std::size_t>(row % block_side));
-  }
+  const auto entry = [&](Eigen::Index e, Eigen::Index f) {  // in the lower triangle
+    const int r = static_cast<int>(e), c = static_cast<int>(f);
+    const auto [at, stride] = factors_.block_at(r / block_side, c / block_side);
+    return at + static_cast<std::size_t>(r % block_side) +
+           stride * static_cast<std::size_t>(c % block_side);
+  };
   for (Eigen::Index j = 0; j < p_.a.cols(); ++j) {
     if (!has_few_entries(p_, j)) continue;
     for (Matrix::InnerIterator e(p_.a, j); e; ++e) {
       for (Matrix::InnerIterator f(p_.a, j); f && f.row() <= e.row(); ++f) {
-        const auto [low, high] = std::minmax(place_[static_cast<std::size_t>(e.row())],
-                                             place_[static_cast<std::size_t>(f.row())]);
-        const std::size_t block =
-            factors_.block_at(static_cast<int>(high / width), static_cast<int>(low / width));
-        target_.push_back(block + width * (high % width) + low % width);
+        const bool lower = factors_.is_lower(static_cast<int>(e.row()) / block_side,
+                                             static_cast<int>(f.row()) / block_side);
+        target_.push_back(lower ? entry(e.row(), f.row()) : entry(f.row(), e.row()));
       }
     }
   }
@@ -86,6 +88,10 @@ void NormalEquations::factorise(const Vector& theta) {
       for (Matrix::InnerIterator f(p_.a, j); f && f.row() <= e.row(); ++f)
         factors_.values[target_[next++]] += scaled * f.value();
     }
+  }
+  for (int r = 0; r < factors_.size(); ++r) {
+    const auto [at, stride] = factors_.block_at(r, r);
+    for (std::size_t c = 0; c < block_side; ++c) factors_.values[at + (stride + 1) * c] += inertia;
   }
   factors_.factorise();
   if (beside_columns_.empty()) return;
@@ -108,14 +114,11 @@ void NormalEquations::factorise(const Vector& theta) {
   small_.compute(small);
 }
 
-Eigen::VectorXd NormalEquations::by_factors(Vector right) const {
-  Vector in_order = Vector::Zero(block_side * factors_.size());
-  for (std::size_t i = 0; i < place_.size(); ++i)
-    in_order[static_cast<Eigen::Index>(place_[i])] = right[static_cast<Eigen::Index>(i)];
-  factors_.solve(in_order.data());
-  for (std::size_t i = 0; i < place_.size(); ++i)
-    right[static_cast<Eigen::Index>(i)] = in_order[static_cast<Eigen::Index>(place_[i])];
-  return right;
+Eigen::VectorXd NormalEquations::by_factors(const Vector& right) const {
+  Vector all = Vector::Zero(static_cast<Eigen::Index>(factors_.lines()));
+  all.head(right.size()) = right;
+  factors_.solve(all.data());
+  return all.head(right.size());
 }
 
 NormalEquations::Step NormalEquations::solve_once(const Vector& of_rows,
@@ -126,7 +129,7 @@ NormalEquations::Step NormalEquations::solve_once(const Vector& of_rows,
     if (is_free(p_, j) && has_few_entries(p_, j))
       right += of_beside[static_cast<Eigen::Index>(f)] * p_.a.col(j);
   }
-  Step s{by_factors(std::move(right)), Vector::Zero(of_beside.size())};
+  Step s{by_factors(right), Vector::Zero(of_beside.size())};
   if (beside_columns_.empty()) return s;
   Vector rest = -of_beside;
   for (std::size_t f = 0; f < beside_columns_.size(); ++f)
@@ -157,7 +160,7 @@ void NormalEquations::solve(const Vector& p, const Vector& q, Vector& x, Vector&
       next[j] = next_beside[f];
       of_beside[f] = p[j] - of_y[j] + theta_[f] * next[j];
     }
-    rest = q - p_.sums(next);
+    rest = q - p_.sums(next) - inertia * next_y;
     const double size = rest.lpNorm<Eigen::Infinity>();
     if (round > 0 && !(size < before)) break;
     x = std::move(next);

@@ -5,20 +5,23 @@
 #include <Eigen/SparseCore>
 #include <vector>
 
-#include "limit/block_cholesky.hpp"
+#include "base/block_cholesky.hpp"
 #include "limit/standard_form.hpp"
 
 namespace edda {
 
 /// Solves for x and y, with theta > 0 for all columns but free ones, where it is 0,
 ///
-///   -theta x + A'y = p,   A x = q,
+///   -theta x + A'y = p,   A x + delta y = q,
 ///
-/// by the factors of M = sum a_j a_j'/theta_j over columns with few entries and, for the others and
-/// the free ones, F, by those of F' M^-1 F + theta_F:
+/// where delta = 1e-5 holds the prices back (a proximal step; Friedlander and Orban 2012): where
+/// forces are few rows depend on each other, and without it no digit of y would be right. What it
+/// takes from the rows vanishes with the steps that y still makes. By the factors of M = sum a_j
+/// a_j'/theta_j over columns with few entries and, for the others and the free ones, F, by those of
+/// F' M^-1 F + theta_F:
 ///
-///   M y + F x_F = q + sum a_j p_j/theta_j,   F'y - theta_F x_F = p_F,   x_j = (a_j'y -
-///   p_j)/theta_j.
+///   (M + delta) y + F x_F = q + sum a_j p_j/theta_j,   F'y - theta_F x_F = p_F,
+///   x_j = (a_j'y - p_j)/theta_j.
 ///
 /// To M and to the right-hand side F'y = p_F is added F times, for free columns with few entries,
 /// which changes nothing but that rows with free columns alone have a diagonal.
@@ -35,12 +38,11 @@ class NormalEquations {
     Vector y, beside;
   };
   Step solve_once(const Vector& of_rows, const Vector& of_beside) const;
-  Vector by_factors(Vector right) const;
+  Vector by_factors(const Vector& right) const;
   void find_places();
 
   const StandardForm& p_;
   std::vector<Eigen::Index> beside_columns_;  // F
-  std::vector<std::size_t> place_;            // [rows] in the vectors of the factors
   std::vector<std::size_t> target_;  // of the products of each column, in the values of factors
   BlockCholesky factors_;
   Vector inverse_;                      // [columns] 1/theta; 0 for those of F

@@ -15,8 +15,7 @@ namespace edda {
 
 enum class Method { edda, dda };
 /// How a block deforms: its corners deviate from the uniform strain, or do not. automatic, of a
-/// material: as the model says; of the model: corners, unless a joint has a restitution, which is
-/// fitted to uniform blocks.
+/// material: as the model says; of the model: corners.
 enum class BlockDeformation { automatic, corners, uniform };
 enum class MassKind { matched, covering, consistent };
 enum class Switching { exact, plain };

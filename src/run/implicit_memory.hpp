@@ -48,8 +48,9 @@ inline bool restore(Simulation& s, const std::vector<Id>& column, const std::vec
       solver,
       {s.scene->blocks, s.motion.masses, s.motion.laws, s.attached.springs, s.scene->model.gravity},
       columns);
-  if (memory.made && memory.values.size() != BlockMatrix::entries * column.size()) return false;
-  return solver.linear.recall(solver.matrix, std::move(memory));
+  if (memory.made && memory.values.size() != solver.matrix.entries()) return false;
+  solver.linear.recall(solver.matrix, std::move(memory));
+  return true;
 }
 
 /// Data of the implicit method: its first guess, and the factor of its solver.
@@ -58,6 +59,10 @@ void list_implicit(Archive& a, Simulation& s) {
   ImplicitSolver& solver = s.implicit;
   a("implicit.mean_velocity_x", solver.mean_velocity_x);
   a("implicit.mean_velocity_y", solver.mean_velocity_y);
+  if (s.scene->blocks.bending.any()) {
+    a("implicit.mean_bend_rate_x", solver.mean_bend_rate.x);
+    a("implicit.mean_bend_rate_y", solver.mean_bend_rate.y);
+  }
   a("implicit.block_of", solver.block_of);
   a("implicit.pattern_of", solver.pattern_of);
   std::vector<Id> column, ends;
@@ -79,7 +84,8 @@ void list_implicit(Archive& a, Simulation& s) {
   a("solver.values", m.values);
   if constexpr (Archive::loads) {
     const std::size_t size = solver.mean_velocity_x[0].empty() ? 0 : s.scene->blocks.size();
-    bool good = true;
+    const std::size_t modes = size == 0 ? 0 : s.scene->blocks.bending.modes();
+    bool good = solver.mean_bend_rate.x.size() == modes && solver.mean_bend_rate.y.size() == modes;
     for (const auto* nodes : {&solver.mean_velocity_x, &solver.mean_velocity_y}) {
       for (const auto& values : *nodes) good = good && values.size() == size;
     }

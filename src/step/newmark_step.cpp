@@ -102,11 +102,14 @@ void start_newmark(Simulation& sim) {
 void account_loads(Simulation& sim, const LoadsNow& now) {
   const Pose& pose = sim.motion.pose;
   const auto moved = [&](Id i) {
-    return vectors_of(part_of(sim.implicit.moved, sim.implicit.row_of[i]));
+    const ImplicitSolver& own = sim.implicit;
+    return vectors_of(own.matrix.part(own.moved, own.row_of[i]).head<degrees_of_freedom>());
+  };
+  const auto bent = [&](std::size_t m) {
+    return sim.motion.state.bend[m] - sim.implicit.start_bend[m];
   };
   sim.accounts.external_work +=
-      load_work(sim, now, pose.x, pose.y, moved, [](std::size_t) { return Vec2{}; }) +
-      frame_work(sim, now, moved);
+      load_work(sim, now, pose.x, pose.y, moved, bent) + frame_work(sim, now, moved);
 }
 
 ImplicitSettings settings_of(const Simulation& sim) {
@@ -130,8 +133,9 @@ std::optional<Failure> move_blocks(Simulation& sim, LoadsNow& now) {
   State& state = sim.motion.state;
   OpenCloseCounts& counts = sim.accounts.open_close;
   const ImplicitSolver& own = sim.implicit;
-  ImplicitScene scene{sim.scene->blocks, sim.motion.masses, sim.motion.laws, sim.attached.springs,
-                      sim.scene->model.gravity};
+  ImplicitScene scene{sim.scene->blocks,    sim.motion.masses,        sim.motion.laws,
+                      sim.attached.springs, sim.scene->model.gravity, {},
+                      sim.motion.locked};
   ImplicitSettings settings = settings_of(sim);
   constexpr int most_cuts = 40;
   for (int cuts = 0;; ++cuts) {

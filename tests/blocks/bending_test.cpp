@@ -106,7 +106,6 @@ TEST(Bending, FixedAndUniformBlocksHaveNone) {
   blocks.build_all();
   EXPECT_FALSE(blocks.blocks.bending.any());
   for (auto change : {+[](Model& m) { m.deformation = BlockDeformation::uniform; },
-                      +[](Model& m) { m.solver.method = Method::dda; },
                       +[](Model& m) { m.contact.model = ContactModel::points; }}) {
     DrawnBlocks uniform;
     uniform.model.deformation = BlockDeformation::corners;

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "forces/viscosity.hpp"
+#include "implicit/body_forces.hpp"
 #include "implicit/implicit_blocks.hpp"
 
 namespace edda::assemble_test {
@@ -37,14 +38,10 @@ stiffness = 1e8
 duration = 1.0
 )";
 
-void expect_derivative(ImplicitBlocks& s) {
-  const Nodes x0 = s.solver.start_x = s.state.x, y0 = s.solver.start_y = s.state.y;
-  set_pattern(s.solver, s.scene(), s.state, s.contacts);
-  begin_springs(s.solver.springs, s.contacts);
-  const auto n = static_cast<Eigen::Index>(6 * s.solver.block_of.size());
-  ASSERT_EQ(n, 12);
-  s.solver.moved = Eigen::VectorXd::Zero(n);
-  const Eigen::VectorXd at_rest = s.residual(x0, y0);
+void expect_derivative(ImplicitBlocks& s, Eigen::Index n) {
+  s.begin_step();
+  ASSERT_EQ(s.solver.matrix.lines(), n);
+  const Eigen::VectorXd at_rest = s.residual();
   const std::vector<std::uint8_t>& states = s.solver.springs.state;
   ASSERT_GE(std::count_if(states.begin(), states.end(), [](int state) { return state != 0; }), 3);
   ASSERT_TRUE(assemble(s.solver, s.scene(), s.settings, s.state, s.pose, s.contacts));
@@ -55,9 +52,9 @@ void expect_derivative(ImplicitBlocks& s) {
   for (Eigen::Index k = 0; k < n; ++k) {
     s.solver.moved.setZero();
     s.solver.moved[k] = h;
-    const Eigen::VectorXd up = s.residual(x0, y0);
+    const Eigen::VectorXd up = s.residual();
     s.solver.moved[k] = -h;
-    slopes.col(k) = (s.residual(x0, y0) - up) / (2.0 * h);
+    slopes.col(k) = (s.residual() - up) / (2.0 * h);
   }
   // What the matrix leaves out is of the order of force over length: small against the springs.
   EXPECT_LE((slopes - matrix).norm(), 2e-3 * matrix.norm());
@@ -66,42 +63,42 @@ void expect_derivative(ImplicitBlocks& s) {
 
 TEST(Assemble, MatrixIsTheDerivativeOfTheResidual) {
   ImplicitBlocks penalty(pressed);
-  expect_derivative(penalty);
+  expect_derivative(penalty, 16);
+  ImplicitBlocks uniform("deformation = 'uniform'\n" + pressed);
+  expect_derivative(uniform, 12);
   // Ends that know of each other; rock whose strain is viscous.
   std::string with_stiffness = pressed;
   with_stiffness.insert(with_stiffness.find("friction_angle"), "kn = 5e9\nks = 5e9\n");
   ImplicitBlocks measured(with_stiffness);
-  expect_derivative(measured);
+  expect_derivative(measured, 16);
   ImplicitBlocks viscous(pressed);
   fill_viscosity(viscous.masses, viscous.blocks, {});
-  expect_derivative(viscous);
+  expect_derivative(viscous, 16);
 }
 
-/// Of v_n: M (2/h + a) v_n, and what is viscous sees 2 D/h - v_n.
+/// Of v_n: M (2/h + a) v_n, and what is viscous sees D/h.
 TEST(Assemble, ResidualHasTheVelocityAtTheStartOfTheStep) {
   ImplicitBlocks s(pressed);
-  const Nodes x0 = s.solver.start_x = s.state.x, y0 = s.solver.start_y = s.state.y;
-  set_pattern(s.solver, s.scene(), s.state, s.contacts);
-  begin_springs(s.solver.springs, s.contacts);
-  s.solver.moved = Eigen::VectorXd::Zero(12);
-  const Eigen::VectorXd at_rest = s.residual(x0, y0);
+  s.begin_step();
+  const Eigen::VectorXd at_rest = s.residual();
   for (std::size_t k = 0; k < 3; ++k) {
     s.state.vx[k][1] = 0.1 + 0.2 * static_cast<double>(k);
     s.state.vy[k][1] = 0.3 - 0.1 * static_cast<double>(k);
   }
-  const NodalVector v = nodal(s.state.vx, s.state.vy, 1);
-  const NodalVector change = (s.residual(x0, y0) - at_rest).head<6>();
-  const NodalVector expected =
-      (2.0 / s.settings.step + s.settings.mass_damping) * s.solver.mass[1] * v;
+  s.state.bend_rate.set(s.blocks.modes(1)[0], {0.2, -0.3});
+  const BodyVector v = body_vector(s.blocks, s.state.vx, s.state.vy, s.state.bend_rate, 1);
+  const BodyVector change = (s.residual() - at_rest).head<8>();
+  const BodyVector expected =
+      (2.0 / s.settings.step + s.settings.mass_damping) * (s.solver.mass[1] * v);
   EXPECT_LT((change - expected).norm(), 1e-9 * expected.norm());
   fill_viscosity(s.masses, s.blocks, {});
-  s.solver.moved.head<6>() << 1e-7, 2e-7, -1e-7, 0.0, 3e-7, 1e-7;
-  const NodalVector rate = 2.0 / s.settings.step * s.solver.moved.head<6>() - 1e-3 * v;
-  for (auto* nodes : {&s.state.vx, &s.state.vy}) {
-    for (std::size_t k = 0; k < 3; ++k) (*nodes)[k][1] *= 1e-3;
-  }
-  const NodalVector force = viscous_force(s.solver, s.scene(), s.settings, s.state, 0);
-  const NodalVector linear = -viscous_matrix(s.blocks, s.masses, 1) * rate;
+  s.solver.moved.head<8>() << 1e-7, 2e-7, -1e-7, 0.0, 3e-7, 1e-7, 2e-7, -2e-7;
+  const BodyVector rate = 1.0 / s.settings.step * s.solver.moved.head<8>();
+  s.residual();
+  const BodyVector force = viscous_force(s.solver, s.scene(), s.settings, s.state, 0);
+  const BodyVector linear =
+      -of_body(viscous_matrix(s.blocks, s.masses, 1), viscosity_of_modes(s.blocks, s.masses, 1)) *
+      rate;
   EXPECT_LT((force - linear).norm(), 1e-4 * linear.norm());
 }
 

@@ -33,10 +33,7 @@ struct ImplicitBlocks {
     laws = build_laws(model);
     springs = attach_boundaries(model, blocks).value();
     state = initial_state(blocks, polygons);
-    for (std::size_t k = 0; k < 3; ++k) {
-      forces.x[k].assign(blocks.size(), 0.0);
-      forces.y[k].assign(blocks.size(), 0.0);
-    }
+    forces = no_forces(blocks);
     pose.x = blocks.vertex_x;
     pose.y = blocks.vertex_y;
     place();
@@ -55,19 +52,27 @@ struct ImplicitBlocks {
 
   void place() {
     for (std::size_t i = 0; i < blocks.size(); ++i) {
-      place_vertices(blocks, state.x, state.y, i, pose.x, pose.y);
+      place_vertices(blocks, state.x, state.y, state.bend, i, pose.x, pose.y);
     }
   }
 
+  /// Begins a step where the blocks stand.
+  void begin_step() {
+    solver.start_x = state.x;
+    solver.start_y = state.y;
+    solver.start_bend = state.bend;
+    set_pattern(solver, scene(), state, contacts);
+    begin_springs(solver.springs, contacts);
+    solver.moved = Eigen::VectorXd::Zero(solver.matrix.lines());
+  }
   /// What is out of balance with D as it stands.
-  Eigen::VectorXd residual(const Nodes& x0, const Nodes& y0) {
+  Eigen::VectorXd residual() {
     for (std::size_t row = 0; row < solver.block_of.size(); ++row) {
       const Id i = solver.block_of[row];
-      for (std::size_t k = 0; k < 3; ++k) {
-        const auto at = static_cast<Eigen::Index>(6 * row + 2 * k);
-        state.x[k][i] = x0[k][i] + solver.moved[at];
-        state.y[k][i] = y0[k][i] + solver.moved[at + 1];
-      }
+      const BodyVector start =
+          body_vector(blocks, solver.start_x, solver.start_y, solver.start_bend, i);
+      store(BodyVector(start + solver.matrix.part(solver.moved, row)), blocks, state.x, state.y,
+            state.bend, i);
     }
     place();
     evaluate_springs(solver.springs, contacts, scene().faces(pose), settings.step, false);

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "forces/bending_forces.hpp"
 #include "forces/elastic.hpp"
 #include "implicit/implicit_blocks.hpp"
 
@@ -32,6 +33,10 @@ duration = 1.0
       state.vx[k][0] = velocity.x - spin * (state.y[k][0] - c.y);
       state.vy[k][0] = velocity.y + spin * (state.x[k][0] - c.x);
     }
+    state.bend.set(0, {2e-4, -1e-4});  // it swings
+    place();
+    pose.x1 = pose.x;
+    pose.y1 = pose.y;
     settings.step = 1e-3;
     settings.mass_damping = mass_damping;
     settings.displacement_limit = 0.1;
@@ -44,22 +49,22 @@ duration = 1.0
     pose.x1 = pose.x;
     pose.y1 = pose.y;
   }
-  NodalVector momentum() const { return mass_matrix(masses, 0) * nodal(state.vx, state.vy, 0); }
+  BodyVector velocity() const {
+    return body_vector(blocks, state.vx, state.vy, state.bend_rate, 0);
+  }
+  BodyVector momentum() const { return body_mass(blocks, masses, 0) * velocity(); }
   double spin_momentum() const {
-    const NodalVector p = momentum();
+    const BodyVector p = momentum(), x = body_vector(blocks, state.x, state.y, state.bend, 0);
     double sum = 0.0;
-    for (std::size_t k = 0; k < 3; ++k) {
-      const auto at = static_cast<Eigen::Index>(2 * k);
-      sum += state.x[k][0] * p[at + 1] - state.y[k][0] * p[at];
-    }
+    for (Eigen::Index at = 0; at < p.size(); at += 2) sum += x[at] * p[at + 1] - x[at + 1] * p[at];
     return sum;
   }
   double energy() const {
     const Deformation f = deformation(blocks, state.x, state.y, 0);
     const Tensor e = corotated_strain(f, rotation(f));
-    const NodalVector v = nodal(state.vx, state.vy, 0);
-    return 0.5 * v.dot(momentum()) +
-           strain_energy(e, e, blocks.volume[0], blocks.lame_lambda[0], blocks.lame_mu[0]) -
+    return 0.5 * velocity().dot(momentum()) +
+           strain_energy(e, e, blocks.volume[0], blocks.lame_lambda[0], blocks.lame_mu[0]) +
+           bending_energy(blocks, state, {}, 0.0, 0) -
            blocks.mass[0] * dot(gravity, centroid(state.x, state.y, 0)) +
            boundary_energy(springs, pose);
   }

@@ -25,7 +25,7 @@ struct Moving : test::DrawnBlocks {
     add({{0, 0}, {2, 0}, {2.2, 1}, {0, 1.3}});
     build_all();
     masses.viscosity = {1e-3};
-    for (std::vector<double>& rate : masses.mode_damping) rate = {3e3};
+    for (std::vector<double>& rate : masses.mode_damping) rate.assign(group_size, 3e3);
     state = initial_state(blocks, set);
     const double vx[3] = {0.1, -0.2, 0.05}, vy[3] = {0.03, 0.1, -0.15};
     for (std::size_t k = 0; k < 3; ++k) {

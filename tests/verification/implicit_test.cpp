@@ -48,7 +48,7 @@ TEST(ImplicitArch, StandsAndFalls) {
 /// Row 4: bonds carry and break in the implicit method, too.
 TEST(ImplicitBond, HoldsAboveAndGoesBelowTheCriticalCohesion) {
   for (const auto& [factor, holds] : {std::pair{1.01, true}, std::pair{0.99, false}}) {
-    std::string toml = ramp(30.0, 15.0, "20e9", 1, "dynamic = false\n" + dda(2e-5));
+    std::string toml = ramp(30.0, 15.0, "20e9", 1, "dynamic = false\n" + dda(1e-4));
     const std::string law = "friction_angle = 15";
     const auto at = toml.find(law);
     ASSERT_NE(at, std::string::npos);

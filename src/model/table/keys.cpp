@@ -19,7 +19,7 @@ constexpr std::array root_keys{
     Key{"title", at<&Model::title>, text, initial, "Title of pictures and tables."},
     Key{"gravity", at<&Model::gravity>, shape(Kind::point, D::acceleration), initial, "Acceleration of gravity, x and y."},
     Key{"plane", at<&Model::plane>, choice, initial, "Plane strain, or plane stress (a thin plate)."},
-    Key{"deformation", at<&Model::deformation>, choice, initial, "How blocks deform. Corners: the corners of a block deviate from its mean strain, so that the block bends (with method edda and contact.model faces; a triangle has one strain in any case). Uniform: each has one strain, and is too stiff in bending. Auto: corners, unless any joint of the model has a restitution, the dashpots of which are fitted to uniform blocks. materials.NAME.deformation goes first."},
+    Key{"deformation", at<&Model::deformation>, choice, initial, "How blocks deform. Corners: the corners of a block deviate from its mean strain, so that the block bends (with contact.model faces; a triangle has one strain in any case). Uniform: each has one strain, and is too stiff in bending. Auto: corners. materials.NAME.deformation goes first."},
     Key{"thickness", at<&Model::thickness>, number(D::length, above(0)), initial, "Thickness out of plane for which forces and masses are given."},
 };
 
