@@ -22,7 +22,7 @@ namespace {
 struct Softness {
   double factor, strongest;
 };
-constexpr Softness bouncing{30.0, 5.2}, dull{100.0, 40.0};
+constexpr Softness bouncing{60.0, 5.2}, dull{150.0, 40.0};
 /// With linear dashpots as a limit that no impact reaches, but that holds the step up little.
 LawDashpots dashpots_of(double spring, double rebound) {
   return {std::sqrt(rebound), 0.0, spring, rebound};
