@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <utility>
 
 #include "report/shapes.hpp"
 
@@ -45,19 +46,31 @@ struct Displacement {
   Vec2 from;
   AffineField field;  ///< of the distance from this point
 };
-Displacement displacement_of(const Grid& blocks, const BlockShape& shape) {
+Displacement displacement_of(const Grid& blocks, const BlockShape& shape,
+                             const std::vector<Vec2>& points) {
   const Field* u = blocks.point_field("displacement");
   if (u == nullptr) return {};
   const auto of_point = [](const std::vector<double>& values, std::int64_t point) {
     const auto at = 3 * static_cast<std::size_t>(point);
     return Vec2{values[at], values[at + 1]};
   };
-  const auto point = [&](std::size_t k) { return shape.outline[k].first; };
-  const Vec2 from = of_point(blocks.points, point(0));
-  return {from, affine_field(
-                    shape.outline.size(),
-                    [&](std::size_t k) { return of_point(blocks.points, point(k)) - from; },
-                    [&](std::size_t k) { return of_point(u->values, point(k)); })};
+  std::vector<std::int64_t> corner;
+  for (const auto& [first, second] : shape.outline) corner.push_back(first);
+  std::sort(corner.begin(), corner.end());
+  corner.erase(std::unique(corner.begin(), corner.end()), corner.end());
+  const auto at = [&](std::int64_t point) {
+    return static_cast<std::size_t>(std::lower_bound(corner.begin(), corner.end(), point) -
+                                    corner.begin());
+  };
+  const Vec2 from = centre_of(blocks, shape, points);
+  return {from,
+          mean_field(
+              corner.size(), shape.outline.size(),
+              [&](std::size_t k) {
+                return std::pair{at(shape.outline[k].first), at(shape.outline[k].second)};
+              },
+              [&](std::size_t v) { return points[static_cast<std::size_t>(corner[v])] - from; },
+              [&](std::size_t v) { return of_point(u->values, corner[v]); })};
 }
 
 }  // namespace
@@ -90,9 +103,10 @@ std::vector<DrawnFace> drawn_faces(const Grid& contacts, const Grid& blocks, dou
   std::vector<DrawnFace> faces = drawn_faces(contacts);
   const Field *j = contacts.cell_field("block_j"), *id = blocks.cell_field("id");
   if (scale == 1.0 || j == nullptr || id == nullptr) return faces;
+  const std::vector<Vec2> points = drawn_points(blocks, 1.0);
   std::map<double, Displacement> of_block;
   for (const BlockShape& shape : block_shapes(blocks))
-    of_block.emplace(id->values[shape.first_cell], displacement_of(blocks, shape));
+    of_block.emplace(id->values[shape.first_cell], displacement_of(blocks, shape, points));
   for (std::size_t c = 0; c < faces.size(); ++c) {
     const auto found = of_block.find(j->values[c]);
     if (found == of_block.end()) continue;

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/corner_weights.hpp"
 #include "base/vec2.hpp"
 #include "results/grid.hpp"
 
@@ -36,36 +37,34 @@ struct AffineField {
   Vec2 at(Vec2 r) const { return d + Vec2{xx * r.x + xy * r.y, yx * r.x + yy * r.y}; }
 };
 
-/// Fits the field to its values at n points by least squares, exact for an affine field. `place(k)`
-/// is r there, `value(k)` is u.
-template <class Place, class Value>
-AffineField affine_field(std::size_t count, Place place, Value value) {
-  const auto n = static_cast<double>(count);
-  Vec2 middle, mean;
-  for (std::size_t k = 0; k < count; ++k) {
-    middle += place(k) / n;
-    mean += value(k) / n;
-  }
-  // A = (sum u r^T) (sum r r^T)^-1, u and r from their means.
-  double xx = 0.0, xy = 0.0, yy = 0.0;
-  Vec2 ux, uy;
-  for (std::size_t k = 0; k < count; ++k) {
-    const Vec2 r = place(k) - middle, u = value(k) - mean;
-    xx += r.x * r.x;
-    xy += r.x * r.y;
-    yy += r.y * r.y;
-    ux += u.x * r;
-    uy += u.y * r;
-  }
-  const double det = xx * yy - xy * xy;
+/// The mean of a field that is linear along the edges of a block: A the mean of its gradient over
+/// the block, by Gauss's theorem, and d as the corners of a block that bends have it (theory,
+/// section 3.4); exact for an affine field. `edge(k)`: the two corners of edge k,
+/// counter-clockwise; `place(v)`: r at a corner, from the centroid; `value(v)`: u there.
+template <class Edge, class Place, class Value>
+AffineField mean_field(std::size_t corners, std::size_t edges, Edge edge, Place place,
+                       Value value) {
   AffineField f;
-  if (det > 0.0) {
-    f.xx = (ux.x * yy - ux.y * xy) / det;
-    f.xy = (ux.y * xx - ux.x * xy) / det;
-    f.yx = (uy.x * yy - uy.y * xy) / det;
-    f.yy = (uy.y * xx - uy.x * xy) / det;
+  double area = 0.0;
+  std::vector<double> tributary(corners, 0.0);
+  for (std::size_t k = 0; k < edges; ++k) {
+    const auto [a, b] = edge(k);
+    const Vec2 along = place(b) - place(a), u = 0.5 * (value(a) + value(b));
+    f.xx += u.x * along.y;
+    f.xy -= u.x * along.x;
+    f.yx += u.y * along.y;
+    f.yy -= u.y * along.x;
+    area += 0.5 * cross(place(a), place(b));
+    tributary[a] += 0.5 * norm(along);
+    tributary[b] += 0.5 * norm(along);
   }
-  f.d = mean - Vec2{f.xx * middle.x + f.xy * middle.y, f.yx * middle.x + f.yy * middle.y};
+  for (double* entry : {&f.xx, &f.xy, &f.yx, &f.yy}) *entry = area > 0.0 ? *entry / area : 0.0;
+  std::vector<Vec2> corner(corners);
+  for (std::size_t v = 0; v < corners; ++v) corner[v] = place(v);
+  const std::vector<double> weight = corner_weights(corner, tributary);
+  Vec2 d;
+  for (std::size_t v = 0; v < corners; ++v) d += weight[v] * (value(v) - f.at(corner[v]));
+  f.d = d;
   return f;
 }
 

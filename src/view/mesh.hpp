@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/fault.hpp"
@@ -48,10 +49,14 @@ using BlockMotion = AffineField;
 /// the mesh.
 template <class Value>
 BlockMotion block_motion(const ViewMesh& mesh, std::size_t row, Value value) {
-  const std::size_t first = mesh.begin[row];
-  return affine_field(
-      mesh.begin[row + 1] - first, [&](std::size_t k) { return mesh.vertex[first + k]; },
-      [&](std::size_t k) { return value(first + k); });
+  const std::size_t first = mesh.begin[row], edge = mesh.edge_begin[row];
+  return mean_field(
+      mesh.begin[row + 1] - first, mesh.edge_begin[row + 1] - edge,
+      [&](std::size_t k) {
+        return std::pair{mesh.edges[edge + k][0] - first, mesh.edges[edge + k][1] - first};
+      },
+      [&](std::size_t v) { return mesh.vertex[first + v]; },
+      [&](std::size_t v) { return value(first + v); });
 }
 
 }  // namespace edda

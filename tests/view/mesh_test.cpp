@@ -60,5 +60,22 @@ TEST(ViewMesh, AnAffineFieldComesBackExactly) {
   }
 }
 
+/// A node within an edge counts by its part of the boundary: u at it alone has the mean gradient u
+/// G^T, G = (y_next - y_before, x_before - x_next)/(2 A), and moves the block by its part of the
+/// mass.
+TEST(ViewMesh, ANodeWithinAnEdgeCountsByItsEdges) {
+  const ViewMesh mesh =
+      view_mesh(frame_of({{0, {{0, 0}, {1, 0}, {2, 0}, {2, 1}, {0, 1}}, false}}, stays, nothing));
+  const BlockMotion found = block_motion(mesh, 0, [&](std::size_t v) {
+    return norm(mesh.vertex[v] - Vec2{0.0, -0.5}) < 1e-12 ? Vec2{0.3, 0.6} : Vec2{};
+  });
+  EXPECT_NEAR(found.xx, 0.0, 1e-14);
+  EXPECT_NEAR(found.yx, 0.0, 1e-14);
+  EXPECT_NEAR(found.xy, -0.5 * 0.3, 1e-14);
+  EXPECT_NEAR(found.yy, -0.5 * 0.6, 1e-14);
+  EXPECT_NEAR(found.d.x, 0.3 / 6.0, 1e-14);
+  EXPECT_NEAR(found.d.y, 0.6 / 6.0, 1e-14);
+}
+
 }  // namespace
 }  // namespace edda::mesh_test

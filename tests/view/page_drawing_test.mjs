@@ -122,6 +122,7 @@ test('takes bolts along with magnified displacements', async () => {
   const plain = await shift();
   assert.ok(plain.length > 10 && plain.filter((n) => n.row >= 0).length > 0.8 * plain.length);
   const motion = await p.evaluate(() => edda.frame.motion.map((c) => Array.from(c)));
+  const centre = await p.evaluate(() => Array.from(edda.results.mesh.centre));
   await p.evaluate(() => edda.controls.setMagnification(100));
   await p.waitForFunction(() => !edda.stale);
   const magnified = await shift();
@@ -129,9 +130,11 @@ test('takes bolts along with magnified displacements', async () => {
   let seen = 0;
   plain.forEach((n, k) => {
     if (n.row < 0) return;
-    const [dx, dy] = [motion[0][n.row], motion[1][n.row]].map((d) => (m - 1) * d);
+    const [ux, uy, xx, xy, yx, yy] = motion.map((column) => column[n.row]);
+    const [rx, ry] = [n.x - centre[2 * n.row] - ux, n.y - centre[2 * n.row + 1] - uy];
+    const [dx, dy] = [ux + xx * rx + xy * ry, uy + yx * rx + yy * ry].map((d) => (m - 1) * d);
     const apart = Math.hypot(magnified[k].x - n.x - dx, magnified[k].y - n.y - dy);
-    assert.ok(apart < 0.3 * Math.hypot(dx, dy) + 0.05, `${n.bolt}: ${apart} of ${dx}, ${dy}`);
+    assert.ok(apart < 0.02 * Math.hypot(dx, dy) + 0.01, `${n.bolt}: ${apart} of ${dx}, ${dy}`);
     if (Math.hypot(dx, dy) > 0.1) ++seen;
   });
   assert.ok(seen > 5);

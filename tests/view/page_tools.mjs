@@ -78,10 +78,10 @@ export async function choose(p, id, value) {
 }
 before(async () => {
   run('example', 'cavern');
-  run('run', 'cavern.toml', '--quiet', '--set', 'deformation=uniform');  // the page draws mean deformations
+  run('run', 'cavern.toml', '--quiet');
   run('view', 'cavern');
   run('example', 'tunnel');
-  run('run', 'tunnel.toml', '--quiet', '--set', 'deformation=uniform');
+  run('run', 'tunnel.toml', '--quiet');
   run('view', 'tunnel');
   browser = await launch(packages);
 });
