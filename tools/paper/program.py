@@ -111,4 +111,5 @@ class Program:
 
 
 def _sets(sets):
-    return [word for item in sets for word in ("--set", item)]
+    # The paper's blocks have one strain each.
+    return [word for item in ("deformation=uniform", *sets) for word in ("--set", item)]
