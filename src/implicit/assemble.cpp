@@ -54,7 +54,7 @@ bool assemble_row(ImplicitSolver& s, const ImplicitScene& scene, const ImplicitS
   const Rotation r = rotation(deformation(b, state.x, state.y, i));
   const Rotation none{1.0, 0.0, 2.0, 0.5};
   BodyMatrix own = rotated(s.elastic[i], r);
-  if (settings.dynamic) {
+  if (settings.dynamic && !scene.masses.viscosity.empty()) {
     const Deformation f = deformation(b, state.x, state.y, i);
     own += (1.0 / h) * of_body(viscous_matrix(b, scene.masses, i, f),
                                rotated(viscosity_of_modes(b, scene.masses, i), r));

@@ -1,4 +1,4 @@
-// The global equations of a step: K^ = (2/h^2 + 2a/h) M + (2/h) D + K (Eq. 11) with the elastic,
+// The global equations of a step: K^ = (2/h^2 + 2a/h) M + D/h + K (Eq. 11) with the elastic,
 // boundary and contact springs of Eqs. 26-36, and the residual at a trial position. Theory,
 // section 12.1.
 #pragma once

@@ -80,7 +80,8 @@ bool LinearSolver::iterate(const BlockMatrix& a, const Vector& b, double toleran
       return factor_.solve(z.data());
     }
     z.resize(r.size());
-    parallel_for(a.rows(), [&](std::size_t i) { a.part(z, i) = diagonal_[i] * a.part(r, i); });
+    parallel_for(a.rows(),
+                 [&](std::size_t i) { a.part(z, i).noalias() = diagonal_[i] * a.part(r, i); });
   };
   Vector r = b - a.scalar() * x, z, p, q;
   last_iterations_ = 0;

@@ -25,7 +25,7 @@ struct ImplicitScene {
   Vec2 gravity;
   LoadsNow loads = {};                   ///< at the end of the step
   const ModeVectors& locked = no_modes;  ///< forces on modes that balance the initial stress
-                                         ///< (forces/bending_forces.hpp); none
+                                         ///< (forces/bending_forces.hpp); empty by default
   static inline const ModeVectors no_modes;
 
   FaceScene faces(const Pose& pose) const { return {blocks, masses, pose, laws}; }
@@ -73,7 +73,7 @@ struct ImplicitSolver {
   std::vector<double> stiffest;      ///< [rows] largest stiffness on the diagonal, N/m
   std::vector<double> carried;       ///< [rows] working array of measure_residual(), N
   std::vector<double> error;         ///< [rows] working array of measure_residual()
-  std::vector<double> energy;        ///< [nb] strain energy at the start of the step, J
+  std::vector<double> energy;        ///< [nb] stored_energy() at the start of the step, J
   NodalForces on_faces;              ///< forces of the faces in the last iteration, N
   int iterations = 0;                ///< iterations of the last attempt
   std::uint64_t switched = 0;        ///< changes of contact states in it

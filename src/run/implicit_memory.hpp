@@ -65,6 +65,8 @@ void list_implicit(Archive& a, Simulation& s) {
   }
   a("implicit.block_of", solver.block_of);
   a("implicit.pattern_of", solver.pattern_of);
+  std::vector<double> stiffest = solver.stiffest;
+  a("implicit.stiffest", stiffest);
   std::vector<Id> column, ends;
   for (const std::vector<Id>& row : solver.matrix.pattern()) {
     column.insert(column.end(), row.begin(), row.end());
@@ -89,8 +91,11 @@ void list_implicit(Archive& a, Simulation& s) {
     for (const auto* nodes : {&solver.mean_velocity_x, &solver.mean_velocity_y}) {
       for (const auto& values : *nodes) good = good && values.size() == size;
     }
-    if (!good || !restore(s, column, ends, std::move(m)))
+    if (!good || stiffest.size() != solver.block_of.size() ||
+        !restore(s, column, ends, std::move(m))) {
       a.refuse("implicit does not fit the model");
+    }
+    solver.stiffest = std::move(stiffest);
   }
 }
 

@@ -108,7 +108,7 @@ class Limit(Program):
         asked = time.monotonic()
         run.send_signal(signal.SIGTERM)
         run.wait(timeout=30)
-        self.assertLess(time.monotonic() - asked, 5.0)  # 0.1 to 0.3 s where nothing else is running
+        self.assertLess(time.monotonic() - asked, 20.0)  # 0.1 s where nothing else is running, 2 to 8 s with sanitizers
         self.assertEqual(run.returncode, 130)
         self.assertIn("interrupted", run.stderr.read())
         self.assertEqual([p.name for p in self.dir.iterdir()], ["m.toml"])
