@@ -54,6 +54,19 @@ void end_column(Rows rows, const std::vector<double>& given) {
   }
 }
 
+/// Columns whose next block is in the row of a column, linked from there.
+struct Waiting {
+  static constexpr int nothing = -1;
+  std::vector<int> first, next;    // [size] of each row; of each column
+  std::vector<std::size_t> block;  // [size] that next block
+  explicit Waiting(std::size_t n) : first(n, nothing), next(n, nothing), block(n, 0) {}
+  void add(int column, int row, std::size_t b) {
+    block[static_cast<std::size_t>(column)] = b;
+    next[static_cast<std::size_t>(column)] = first[static_cast<std::size_t>(row)];
+    first[static_cast<std::size_t>(row)] = column;
+  }
+};
+
 }  // namespace
 
 /// A block column: its blocks, and the height of all their rows.
@@ -110,19 +123,6 @@ BlockCholesky::Block BlockCholesky::block_at(int r, int of) const {
   const auto b = static_cast<std::size_t>(std::lower_bound(first, last, row) - row_.begin());
   return {c.start + from_[b], c.height};
 }
-
-/// Columns whose next block is in the row of a column, linked from there.
-struct Waiting {
-  static constexpr int nothing = -1;
-  std::vector<int> first, next;    // [size] of each row; of each column
-  std::vector<std::size_t> block;  // [size] that next block
-  explicit Waiting(std::size_t n) : first(n, nothing), next(n, nothing), block(n, 0) {}
-  void add(int column, int row, std::size_t b) {
-    block[static_cast<std::size_t>(column)] = b;
-    next[static_cast<std::size_t>(column)] = first[static_cast<std::size_t>(row)];
-    first[static_cast<std::size_t>(row)] = column;
-  }
-};
 
 void BlockCholesky::factorise() {
   Waiting waiting(place_.size());

@@ -66,11 +66,6 @@ EDDA_INLINE Rotation rotation(const Deformation& f) {
   return {a * inverse, b * inverse, r, inverse};
 }
 
-/// w of the rotation r, 1/s, at the rate l of F.
-EDDA_INLINE double spin_of(const Rotation& r, const Deformation& l) {
-  return (r.c * (l.yx - l.xy) - r.s * (l.xx + l.yy)) * r.inverse;
-}
-
 /// Weights of the block's centroid: every cover is centred on it.
 inline constexpr NodeWeights centroid_weights = [] {
   NodeWeights w{};

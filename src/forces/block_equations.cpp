@@ -130,18 +130,6 @@ class Hash {
   std::uint64_t value_ = 1;
 };
 
-/// A matrix of the nodes as that of the whole block.
-template <class Matrix>
-Matrix of_nodes(const NodalMatrix& m, Eigen::Index size) {
-  if constexpr (Matrix::RowsAtCompileTime != Eigen::Dynamic) {
-    return m;
-  } else {
-    Matrix all = Matrix::Zero(size, size);
-    all.topLeftCorner(m.rows(), m.cols()) = m;
-    return all;
-  }
-}
-
 }  // namespace
 
 template <class Matrix>
@@ -153,23 +141,24 @@ BlockEquations<Matrix> equations_of(const StiffnessInputs& w, std::size_t i) {
   k.parts = w.points == nullptr ? faces_all_round(w, i) : points_near(w, i);
   const Rotation r = rotation(deformation(w.blocks, w.state.x, w.state.y, i));
   const NodalMatrix elastic = elastic_matrix(w.blocks, i),
-                    viscous = viscous_matrix(w.blocks, w.masses, i);
+                    viscous = viscous_matrix(w.blocks, w.masses, i),
+                    bolts = w.bolts == nullptr ? NodalMatrix::Zero().eval()
+                                               : bolt_matrix(*w.bolts, w.blocks, w.state, i);
   if constexpr (bends) {
     k.mass = Matrix::Zero(size, size);
     body_mass(w.blocks, w.masses, i).add_to(k.mass, 1.0);
     k.elastic = of_body(elastic, stiffness_of_modes(w.blocks, i));
     k.viscous = of_body(viscous, viscosity_of_modes(w.blocks, w.masses, i));
     k.boundary = boundary_of_body(w.blocks, w.springs, r, i);
+    k.bolts = of_body(bolts, Matrix::Zero(size - bolts.rows(), size - bolts.cols()));
   } else {
     k.mass = mass_matrix(w.masses, i);
     k.elastic = elastic;
     k.viscous = viscous;
     k.boundary = boundary_matrix(w.blocks, w.springs, r, i);
+    k.bolts = bolts;
   }
-  k.bolts = of_nodes<Matrix>(
-      w.bolts == nullptr ? NodalMatrix::Zero().eval() : bolt_matrix(*w.bolts, w.blocks, w.state, i),
-      size);
-  k.contacts = k.dashpots = of_nodes<Matrix>(NodalMatrix::Zero(), size);
+  k.contacts = k.dashpots = Matrix::Zero(size, size);
   for (const SpringOnBlock& p : k.parts) {
     const Vector normal = at_corner_of<Vector>(w.blocks, p, p.normal),
                  tangent = at_corner_of<Vector>(w.blocks, p, p.tangent);

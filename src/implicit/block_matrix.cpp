@@ -42,14 +42,6 @@ void BlockMatrix::set_pattern(const std::vector<std::vector<Id>>& columns,
   *outer = next;
 }
 
-std::vector<std::vector<Id>> BlockMatrix::pattern() const {
-  std::vector<std::vector<Id>> columns(rows());
-  for (std::size_t r = 0; r < rows(); ++r) {
-    columns[r].assign(column_.begin() + begin_[r], column_.begin() + begin_[r + 1]);
-  }
-  return columns;
-}
-
 std::vector<double> BlockMatrix::values() const {
   return {scalar_.valuePtr(), scalar_.valuePtr() + scalar_.nonZeros()};
 }

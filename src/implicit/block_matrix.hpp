@@ -4,6 +4,7 @@
 #pragma once
 
 #include <Eigen/Sparse>
+#include <span>
 #include <vector>
 
 #include "forces/block_matrices.hpp"
@@ -21,8 +22,10 @@ class BlockMatrix {
   void set_pattern(const std::vector<std::vector<Id>>& columns,
                    const std::vector<Eigen::Index>& lines);
 
-  /// The pattern as given to set_pattern().
-  std::vector<std::vector<Id>> pattern() const;
+  /// The columns of row r, as given to set_pattern().
+  std::span<const Id> columns(std::size_t r) const {
+    return std::span(column_).subspan(begin_[r], begin_[r + 1] - begin_[r]);
+  }
   std::size_t rows() const { return begin_.empty() ? 0 : begin_.size() - 1; }
   std::size_t blocks() const { return column_.size(); }
   /// The number of values: in all blocks, and in those of the diagonal.

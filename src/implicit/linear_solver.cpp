@@ -28,10 +28,9 @@ void LinearSolver::order(const BlockMatrix& a) {
   if (ordered_) return;
   std::vector<int> sides;
   BlockCholesky::Pairs couples;
-  const std::vector<std::vector<Id>> columns = a.pattern();
   for (std::size_t r = 0; r < a.rows(); ++r) {
     sides.push_back(static_cast<int>(a.lines(r)));
-    for (const Id c : columns[r]) {
+    for (const Id c : a.columns(r)) {
       if (c < r) couples.emplace_back(static_cast<int>(r), static_cast<int>(c));
     }
   }
@@ -43,10 +42,10 @@ void LinearSolver::order(const BlockMatrix& a) {
 void LinearSolver::factorise(BlockMatrix& a) {
   m_.values = a.values();
   std::fill(factor_.values.begin(), factor_.values.end(), 0.0);
-  const std::vector<std::vector<Id>> columns = a.pattern();
   for (Id r = 0; r < a.rows(); ++r) {
-    for (Id q = 0; q < columns[r].size(); ++q) {
-      const int row = static_cast<int>(r), column = static_cast<int>(columns[r][q]);
+    const std::span<const Id> columns = a.columns(r);
+    for (Id q = 0; q < columns.size(); ++q) {
+      const int row = static_cast<int>(r), column = static_cast<int>(columns[q]);
       if (!factor_.is_lower(row, column)) continue;
       const BlockMatrix::Block block = a.at(r, q);
       const auto [at, stride] = factor_.block_at(row, column);

@@ -88,6 +88,11 @@ GroupView view_of(const ModeLeap& leap, State& s) {
   return v;
 }
 
+/// w of the rotation r, 1/s, at the rate l of F.
+EDDA_INLINE double spin_of(const Rotation& r, const Deformation& l) {
+  return (r.c * (l.yx - l.xy) - r.s * (l.xx + l.yy)) * r.inverse;
+}
+
 EDDA_INLINE double spin_now(const GroupView& b, const GroupTurn& turn, std::size_t i,
                             std::size_t at) {
   return spin_of(turn.of(at),

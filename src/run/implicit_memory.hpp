@@ -68,7 +68,8 @@ void list_implicit(Archive& a, Simulation& s) {
   std::vector<double> stiffest = solver.stiffest;
   a("implicit.stiffest", stiffest);
   std::vector<Id> column, ends;
-  for (const std::vector<Id>& row : solver.matrix.pattern()) {
+  for (std::size_t r = 0; r < solver.matrix.rows(); ++r) {
+    const std::span<const Id> row = solver.matrix.columns(r);
     column.insert(column.end(), row.begin(), row.end());
     ends.push_back(static_cast<Id>(column.size()));
   }
