@@ -47,7 +47,7 @@ void GatherForces(benchmark::State& bench) {
   Simulation sim = settled(bench);
   for (auto _ : bench) {
     gather_forces(sim.motion.forces, sim.scene->blocks, sim.motion.state, sim.motion.pose,
-                  sim.motion.on_faces, sim.attached.springs, sim.scene->model.gravity);
+                  sim.motion.on_contacts, sim.attached.springs, sim.scene->model.gravity);
   }
   count(bench, sim);
 }

@@ -35,8 +35,8 @@ Field accelerations_of(Simulation& s) {
   }
   evaluate_faces(s.motion.contacts, face_scene(s), s.motion.state.step);
   sum_face_forces(s);
-  gather_forces(s.motion.forces, s.scene->blocks, s.motion.state, s.motion.pose, s.motion.on_faces,
-                s.attached.springs, s.scene->model.gravity);
+  gather_forces(s.motion.forces, s.scene->blocks, s.motion.state, s.motion.pose,
+                s.motion.on_contacts, s.attached.springs, s.scene->model.gravity);
   Field a{s.motion.forces.x, s.motion.forces.y};
   for_each_node(s, [&](std::size_t k, std::size_t i) {
     a.x[k][i] /= s.motion.masses.node[k][i];

@@ -168,9 +168,7 @@ struct LoadsNow {
   std::vector<double> rise;      ///< [rows of Model::waters] m
   std::vector<double> weight;    ///< [rows of Model::waters] unit weight times thickness, N/m2
   const Bolts* bolts = nullptr;  ///< with their forces at this time; null: there are none
-  const std::vector<NodeVectors>* on_nodes =
-      nullptr;   ///< [nb] N, of point contacts (contacts/points.hpp); null: contacts are faces
-  Vec2 frame;    ///< m/s2: acceleration of the frame; all blocks feel its opposite
+  Vec2 frame;                    ///< m/s2: acceleration of the frame; all blocks feel its opposite
   Vec2 to_come;  ///< m/s2: gravity of the model less the present one, which is applied gradually
                  ///< (GradualChange::weight) or changed (SlowLoading)
   /// What is to be subtracted from gravity.

@@ -193,6 +193,16 @@ void complete_faces(FaceSet& c, const BlockSet& b, const LawTable& laws) {
   complete_list(c, b);
 }
 
+void note_list(FaceSet& c, const Pose& pose, const Reach& reach) {
+  c.noise = rounding_of_closures(pose);
+  c.reach = reach.apart;
+  c.reach_behind = reach.behind;
+  c.built_x = pose.x;
+  c.built_y = pose.y;
+  c.travel = 0.0;
+  ++c.rebuilds;
+}
+
 std::vector<Id> renew_faces(FaceSet& faces, const BlockSet& b, const State& state, const Pose& pose,
                             const LawTable& laws, const Reach& reach, NearEdges& near,
                             const std::vector<std::uint8_t>& carry, FaceStates states) {
@@ -234,13 +244,8 @@ std::vector<Id> renew_faces(FaceSet& faces, const BlockSet& b, const State& stat
   }
   complete_list(next, b);
   next.dashpots = copies ? dashpots_work(next.now) : faces.dashpots;
-  next.noise = rounding_of_closures(pose);
-  next.reach = reach.apart;
-  next.reach_behind = reach.behind;
-  next.built_x = pose.x;
-  next.built_y = pose.y;
-  next.travel = 0.0;
-  next.rebuilds = faces.rebuilds + 1;
+  next.rebuilds = faces.rebuilds;
+  note_list(next, pose, reach);
   faces = std::move(next);
   std::vector<Id> old(n);
   for (std::size_t k = 0; k < n; ++k) old[k] = list[k].old;

@@ -29,6 +29,9 @@ std::vector<Id> renew_faces(FaceSet& faces, const BlockSet& blocks, const State&
                             NearEdges& near, const std::vector<std::uint8_t>& carry,
                             FaceStates states);
 
+/// Notes where the blocks are as the list is made, and its reach.
+void note_list(FaceSet& faces, const Pose& pose, const Reach& reach);
+
 /// Fills everything that follows from the edges and laws of the faces.
 void complete_faces(FaceSet& faces, const BlockSet& blocks, const LawTable& laws);
 

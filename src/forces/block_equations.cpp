@@ -102,19 +102,10 @@ std::vector<SpringOnBlock> faces_all_round(const StiffnessInputs& w, std::size_t
   return parts;
 }
 
-/// In place of faces: all point contacts that are near act at once, each spring in both directions,
-/// since it is not known which edge a vertex will meet.
-std::vector<SpringOnBlock> points_near(const StiffnessInputs& w, std::size_t i) {
-  const std::vector<PointSpring>& springs = w.points->springs;
-  const double p = std::max(w.points->stiffness, w.points->shear_stiffness);
-  std::vector<SpringOnBlock> parts;
-  const auto before = [](const PointSpring& s, std::size_t block) { return s.block < block; };
-  for (auto s = std::lower_bound(springs.begin(), springs.end(), i, before);
-       s != springs.end() && s->block == i; ++s) {
-    parts.push_back(
-        {no_id, no_id, s->weight, {1.0, 0.0}, {0.0, 1.0}, s->factor * p, s->factor * p, 0.0, 0.0});
-  }
-  return parts;
+/// Those that are near, in place of faces all round: all of them act at once.
+std::vector<SpringOnBlock> springs_near(const NearSprings& near, std::size_t i) {
+  const auto at = [&](Id q) { return near.springs.begin() + static_cast<std::ptrdiff_t>(q); };
+  return {at(near.begin[i]), at(near.begin[i + 1])};
 }
 
 /// Hash of a sequence of numbers.
@@ -138,7 +129,7 @@ BlockEquations<Matrix> equations_of(const StiffnessInputs& w, std::size_t i) {
   constexpr bool bends = std::is_same_v<Matrix, BodyMatrix>;
   const Eigen::Index size = components_of(w.blocks, i);
   BlockEquations<Matrix> k;
-  k.parts = w.points == nullptr ? faces_all_round(w, i) : points_near(w, i);
+  k.parts = w.near == nullptr ? faces_all_round(w, i) : springs_near(*w.near, i);
   const Rotation r = rotation(deformation(w.blocks, w.state.x, w.state.y, i));
   const NodalMatrix elastic = elastic_matrix(w.blocks, i),
                     viscous = viscous_matrix(w.blocks, w.masses, i),
@@ -177,7 +168,7 @@ std::uint64_t equations_hash(const StiffnessInputs& w, std::size_t i) {
   const bool by_state =
       w.springs.block_begin[i] < w.springs.block_begin[i + 1] ||
       (w.bolts != nullptr && !w.bolts->place.empty() && w.bolts->place[i] != no_id);
-  if (by_state || w.points != nullptr) return 0;
+  if (by_state || w.near != nullptr) return 0;
   Hash hash;
   for (const std::vector<double>& mass : w.masses.node) hash.add(mass[i]);
   for (const double number :

@@ -13,26 +13,9 @@
 #include "blocks/state.hpp"
 #include "contacts/face_set.hpp"
 #include "contacts/laws.hpp"
-#include "contacts/points.hpp"
 #include "forces/block_matrices.hpp"
 
 namespace edda {
-
-/// Everything that determines stiffness and damping of the blocks.
-struct StiffnessInputs {
-  const BlockSet& blocks;
-  const Masses& masses;
-  const State& state;
-  const FaceSet& contacts;
-  const BoundarySprings& springs;
-  const LawTable& laws;
-  const Damping& damping;
-  const Bolts* bolts = nullptr;      ///< null: none
-  const PointSet* points = nullptr;  ///< point contacts that are near, in place of faces all round;
-                                     ///< null: contacts are faces
-  bool alone = std::count(blocks.fixed.begin(), blocks.fixed.end(), 0) == 1;  ///< only one block is
-                                                                              ///< free
-};
 
 /// Contribution of a contact at one corner to the equations of a block. All with the factor 2, or 1
 /// against a fixed block (step_bound.hpp).
@@ -43,6 +26,27 @@ struct SpringOnBlock {
   Vec2 normal, tangent;                   ///< directions
   double kn, ks, dashpot, shear_dashpot;  ///< normal and shear spring, N/m; dashpots across and
                                           ///< along the joint, N s/m
+};
+
+/// Contacts that may act on the blocks, in place of those of faces all round.
+struct NearSprings {
+  std::vector<SpringOnBlock> springs;  ///< by block
+  std::vector<Id> begin;               ///< [nb + 1] of each block
+};
+
+/// Everything that determines stiffness and damping of the blocks.
+struct StiffnessInputs {
+  const BlockSet& blocks;
+  const Masses& masses;
+  const State& state;
+  const FaceSet& contacts;
+  const BoundarySprings& springs;
+  const LawTable& laws;
+  const Damping& damping;
+  const Bolts* bolts = nullptr;       ///< null: none
+  const NearSprings* near = nullptr;  ///< null: contacts are faces
+  bool alone = std::count(blocks.fixed.begin(), blocks.fixed.end(), 0) == 1;  ///< only one block is
+                                                                              ///< free
 };
 
 /// Equations M a + (C + D) v + K x = f of one block in its own frame, for the components of its

@@ -93,20 +93,18 @@ void add_springs(NodalForces& forces, const BlockSet& b, const BoundarySprings& 
   }
 }
 
-/// Adds the loads, then the forces of the bolts, then those of point contacts, likewise.
+/// Adds the loads, then the forces of the bolts, likewise.
 void add_loads(NodalForces& forces, const BlockSet& b, const LoadsNow& loads, const State& state,
                const Pose& pose, std::size_t begin, std::size_t end) {
   if (loads.loads != nullptr) {
     change_forces(forces, b, state, loads.loads->blocks, begin, end,
                   [&](BlockForces& f) { add_loads(f, loads, pose.x, pose.y); });
   }
-  if (loads.bolts == nullptr && loads.on_nodes == nullptr) return;
+  if (loads.bolts == nullptr) return;
   for (std::size_t i = begin; i < end; ++i) {
-    const bool bolted = loads.bolts != nullptr && loads.bolts->place[i] != no_id;
-    if ((!bolted && loads.on_nodes == nullptr) || !is_free(b, state, i)) continue;
+    if (loads.bolts->place[i] == no_id || !is_free(b, state, i)) continue;
     NodeVectors f = vectors_of(forces.x, forces.y, i);
-    if (bolted) add_bolts(f, *loads.bolts, i);
-    if (loads.on_nodes != nullptr) f = f + (*loads.on_nodes)[i];
+    add_bolts(f, *loads.bolts, i);
     store(f, forces.x, forces.y, i);
   }
 }

@@ -6,8 +6,7 @@
 #include <numeric>
 
 #include "blocks/block_groups.hpp"
-#include "contacts/face_reading.hpp"
-#include "step/faces_now.hpp"
+#include "step/contact_pairs.hpp"
 
 namespace edda {
 namespace {
@@ -119,9 +118,6 @@ RelativeMotion::RelativeMotion(const Simulation& sim)
       bend_(sim.motion.state.bend),
       ground_(sim.attached.ground.shift),
       shift_(sim.attached.springs.shift) {
-  constexpr double near = 1e-3;  // of the smaller block: a gap across which blocks are neighbours
-  const BlockSet& b = sim.scene->blocks;
-  const FaceSet& f = sim.motion.contacts;
   std::vector<std::pair<Id, Id>> pairs;
   const auto add = [&](Id i, Id j) {
     if (i == j) return;
@@ -130,13 +126,7 @@ RelativeMotion::RelativeMotion(const Simulation& sim)
                         ? std::pair{i, j}
                         : std::pair{j, i});
   };
-  for (std::size_t k = 0; k < f.size(); ++k) {
-    if (is_closed_now(sim, k) || meets_within(f, near * smaller_size(f, b, k), k))
-      add(block_of_edge(b, f, k), block_of_facing(b, f, k));
-  }
-  const PointSet& p = sim.motion.point_contacts;
-  for (std::size_t k = 0; k < p.size(); ++k)
-    add(b.vertex_block[p.vertex[k]], b.vertex_block[p.edge[k]]);
+  for (const auto& [i, j] : blocks_in_contact(sim, Nearness::near)) add(i, j);
   const Bolts& bolts = sim.attached.bolts;
   std::sort(pairs.begin(), pairs.end());
   pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());

@@ -71,7 +71,7 @@ void warn_of_sudden_gravity(const Simulation& sim, std::vector<std::string>& war
     carried = meets(f, k) && (free_block(sim, block_of_edge(sim.scene->blocks, f, k)) ||
                               free_block(sim, block_of_facing(sim.scene->blocks, f, k)));
   }
-  if (!carried || (!sim.scene->at_points() && some_block_moves(sim))) return;
+  if (!carried || some_block_moves(sim)) return;
   warnings.emplace_back(
       "gravity acts at once on blocks without stress: forces will oscillate, up to about twice "
       "their values in equilibrium, until damping has removed the oscillation; where the "

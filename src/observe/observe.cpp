@@ -8,7 +8,7 @@
 #include "contacts/face_reading.hpp"
 #include "forces/elastic.hpp"
 #include "observe/overstress.hpp"
-#include "step/faces_now.hpp"
+#include "step/contact_pairs.hpp"
 #include "step/ground_motion.hpp"
 
 namespace edda {
@@ -112,7 +112,7 @@ ContactRecord face_record(const Simulation& sim, const FaceSet& f, std::size_t k
 /// A point contact is recorded as a face without length.
 ContactRecord point_record(const Simulation& sim, std::size_t k) {
   const BlockSet& b = sim.scene->blocks;
-  const PointSet& c = sim.motion.point_contacts;
+  const PointSet& c = sim.point_contacts;
   const PointGap g = gap_of(c, b, sim.motion.pose, k);
   const Id v = c.vertex[k];
   ContactRecord r;
@@ -157,7 +157,7 @@ void observe_blocks(const Simulation& sim, Instant& at) {
   const Motion& motion = sim.motion;
   at.state = motion.state;
   at.forces = motion.forces;
-  gather_forces(at.forces, sim.scene->blocks, motion.state, motion.pose, motion.on_faces,
+  gather_forces(at.forces, sim.scene->blocks, motion.state, motion.pose, motion.on_contacts,
                 sim.attached.springs, sim.scene->model.gravity, acting(sim), motion.locked);
   sim.stepper->look(sim, at);
 }
@@ -173,8 +173,8 @@ Picture picture_of(const Simulation& sim, const Instant& at) {
   for (std::size_t k = 0; k < f.size(); ++k) {
     if (is_closed(f, k) || f.opened[k] > 0.0) p.contacts.push_back(face_record(sim, f, k));
   }
-  for (std::size_t k = 0; k < sim.motion.point_contacts.size(); ++k) {
-    if (sim.motion.point_contacts.closed[k] > 0.0 || sim.motion.point_contacts.opened[k] > 0.0)
+  for (std::size_t k = 0; k < sim.point_contacts.size(); ++k) {
+    if (sim.point_contacts.closed[k] > 0.0 || sim.point_contacts.opened[k] > 0.0)
       p.contacts.push_back(point_record(sim, k));
   }
   place_points(sim.scene->blocks, at.state, p);
@@ -233,21 +233,12 @@ double force_scale(const Simulation& sim, const std::vector<Id>& blocks) {
     loads += sim.scene->blocks.mass[i] * norm(sim.scene->model.gravity) +
              norm(load_on(sim.scene->blocks, acting, sim.motion.pose, i));
   }
-  double normal = 0.0;
-  std::size_t carrying = 0;
-  for (const double n : normal_forces_now(sim)) {
-    if (!(n > 0.0)) continue;
-    normal += n;
-    carrying += 2;  // both of its ends
-  }
-  for (const double n : sim.motion.point_contacts.normal) {
-    normal += n;
-    carrying += n > 0.0 ? 1 : 0;
-  }
+  const NormalForces pressed = normal_forces(sim);
   // Contacts that barely touch, as at the start, carry forces of the order of rounding, which are
   // no reference.
   const double mean_load = blocks.empty() ? 0.0 : loads / static_cast<double>(blocks.size());
-  const double mean_normal = carrying > 0 ? normal / static_cast<double>(carrying) : 0.0;
+  const double mean_normal =
+      pressed.ends > 0 ? pressed.sum / static_cast<double>(pressed.ends) : 0.0;
   return mean_normal > 1e-3 * mean_load ? mean_normal : mean_load;
 }
 
@@ -262,12 +253,6 @@ double unbalanced_ratio(const Simulation& sim, const Instant& at) {
   if (force == 0.0) return 0.0;
   const double scale = force_scale(sim, free_blocks);
   return scale > 0.0 ? force / static_cast<double>(free_blocks.size()) / scale : 1.0;
-}
-
-std::size_t closed_contacts(const FaceSet& f) {
-  std::size_t count = 0;
-  for (std::size_t k = 0; k < f.size(); ++k) count += is_closed(f, k);
-  return count;
 }
 
 void count_revolutions(Simulation& sim, std::vector<double>& angle) {

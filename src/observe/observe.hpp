@@ -39,9 +39,6 @@ double force_scale(const Simulation& sim, const std::vector<Id>& blocks);
 /// is no reference.
 double unbalanced_ratio(const Simulation& sim, const Instant& at);
 
-/// Number of closed faces.
-std::size_t closed_contacts(const FaceSet& contacts);
-
 /// Updates State::turns. Must be called often enough that no block rotates by pi between two calls;
 /// `angle` keeps the polar angles of the last call (rad, empty at first).
 void count_revolutions(Simulation& sim, std::vector<double>& angle);

@@ -7,8 +7,8 @@
 
 #include "base/text.hpp"
 #include "blocks/block_groups.hpp"
-#include "contacts/face_reading.hpp"
 #include "observe/observe.hpp"
+#include "step/contact_pairs.hpp"
 #include "step/labels.hpp"
 
 namespace edda {
@@ -16,17 +16,7 @@ namespace {
 
 Sets groups_of(const Simulation& sim) {
   Sets sets(sim.scene->blocks.size());
-  const FaceSet& f = sim.motion.contacts;
-  for (std::size_t k = 0; k < f.size(); ++k) {
-    if (meets(f, k))
-      sets.join(block_of_edge(sim.scene->blocks, f, k), block_of_facing(sim.scene->blocks, f, k));
-  }
-  const PointSet& p = sim.motion.point_contacts;
-  for (std::size_t k = 0; k < p.size(); ++k) {
-    if (meets(p, sim.scene->blocks, sim.motion.pose, k, f.noise))
-      sets.join(sim.scene->blocks.vertex_block[p.vertex[k]],
-                sim.scene->blocks.vertex_block[p.edge[k]]);
-  }
+  for (const auto& [i, j] : blocks_in_contact(sim, Nearness::touching)) sets.join(i, j);
   const Bolts& bolts = sim.attached.bolts;
   for (std::size_t r = 0; r < bolts.rows.size(); ++r) {
     for (Id k = bolts.begin[r] + 1; k < bolts.begin[r + 1]; ++k)

@@ -9,13 +9,13 @@
 #include <cmath>
 
 #include "base/threads.hpp"
-#include "contacts/face_reading.hpp"
 #include "observe/damping_report.hpp"
 #include "observe/initial_stress_report.hpp"
 #include "observe/load_report.hpp"
 #include "observe/observe.hpp"
 #include "run/stages.hpp"
 #include "run/wall_clock.hpp"
+#include "step/contact_pairs.hpp"
 
 namespace edda {
 namespace {
@@ -55,14 +55,8 @@ std::size_t fixed_blocks(const Simulation& sim) {
 ModelCheck check_model(Simulation& sim) {
   ModelCheck found;
   found.fixed = fixed_blocks(sim);
-  for (std::size_t k = 0; k < sim.motion.contacts.size(); ++k) {
-    found.closed += meets(sim.motion.contacts, k);
-  }
-  for (std::size_t k = 0; k < sim.motion.point_contacts.size(); ++k) {
-    found.closed += meets(sim.motion.point_contacts, sim.scene->blocks, sim.motion.pose, k,
-                          sim.motion.contacts.noise);
-  }
-  found.within_reach = sim.motion.contacts.size() + sim.motion.point_contacts.size();
+  found.closed = blocks_in_contact(sim, Nearness::touching).size();
+  found.within_reach = sim.motion.contacts.size() + sim.point_contacts.size();
   found.critical_step = sim.control.bound.critical_step;
   found.loads = load_report(sim);
   found.initial_stress = initial_stress_report(sim);

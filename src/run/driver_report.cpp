@@ -2,10 +2,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "contacts/face_reading.hpp"
 #include "observe/summary.hpp"
 #include "run/driver.hpp"
 #include "run/wall_clock.hpp"
+#include "step/contact_pairs.hpp"
 
 namespace edda {
 namespace {
@@ -34,8 +34,7 @@ void Driver::write_end() {
     outcome_.wall.output = wall;
   }
   outcome_.ramps = ramp_outcomes(sim_.scene->model, curve_);
-  outcome_.contacts =
-      closed_contacts(sim_.motion.contacts) + closed_points(sim_.motion.point_contacts);
+  outcome_.contacts = blocks_in_contact(sim_, Nearness::closed).size();
   if (const Trouble trouble = disk_trouble_ ? Trouble{} : write_curve()) ended_by(trouble);
   if (begun && recorder_.writes()) {
     count_revolutions(sim_, angle_);

@@ -10,7 +10,7 @@
 
 #include "contacts/face_set.hpp"
 #include "contacts/laws.hpp"
-#include "contacts/points.hpp"
+#include "paper/points.hpp"
 
 namespace edda {
 

@@ -82,7 +82,7 @@ void list_modes(Archive& a, Simulation& s) {
   list("state.from_bend", s.motion.state.from_bend);
   list("locked", s.motion.locked);
   list("forces.modes", s.motion.forces.modes);
-  list("on_faces_modes", s.motion.on_faces.modes);
+  list("on_faces_modes", s.motion.on_contacts.modes);
   list("jump_modes", s.motion.jump.modes);
   list("frequency_estimate.bend", s.relaxation.estimate.bend);
   list("frequency_estimate.on_modes", s.relaxation.estimate.on_modes);
@@ -199,7 +199,7 @@ void examine(Examiner& j, const Simulation& s) {
   for (const Nodes* nodes :
        {&s.motion.state.x, &s.motion.state.y, &s.motion.state.vx, &s.motion.state.vy,
         &s.motion.state.from_x, &s.motion.state.from_y, &s.motion.forces.x, &s.motion.forces.y,
-        &s.motion.on_faces.x, &s.motion.on_faces.y}) {
+        &s.motion.on_contacts.x, &s.motion.on_contacts.y}) {
     for (const auto& values : *nodes) j.sized("state", values, nb);
   }
   for (const auto* jump : {&s.motion.jump.x, &s.motion.jump.y}) {
@@ -210,7 +210,7 @@ void examine(Examiner& j, const Simulation& s) {
   const std::size_t modes = s.scene->blocks.bending.modes();
   for (const ModeVectors* of :
        {&s.motion.state.bend, &s.motion.state.bend_rate, &s.motion.state.from_bend,
-        &s.motion.forces.modes, &s.motion.on_faces.modes}) {
+        &s.motion.forces.modes, &s.motion.on_contacts.modes}) {
     j.sized("state.bend", of->x, modes);
     j.sized("state.bend", of->y, modes);
   }
@@ -241,7 +241,7 @@ void examine(Examiner& j, const Simulation& s) {
     for (const auto& mass : s.motion.masses.node) j.positive("node_mass", mass[i]);
   }
   examine_faces(j, s.motion.contacts, s.scene->blocks, s.motion.laws);
-  examine_points(j, s.motion.point_contacts, s.scene->blocks, s.motion.laws);
+  examine_points(j, s.point_contacts, s.scene->blocks, s.motion.laws);
   if (j.flaw().empty()) examine_places(j, s);
 }
 
@@ -252,9 +252,9 @@ void list_memory(Archive& a, Simulation& s) {
   list_state(a, s);
   if (s.scene->blocks.bending.any()) list_modes(a, s);
   list_faces(a, s.motion.contacts);
-  a("on_faces_x", s.motion.on_faces.x);
-  a("on_faces_y", s.motion.on_faces.y);
-  if (s.scene->at_points()) list_points(a, s.motion.point_contacts);
+  a("on_faces_x", s.motion.on_contacts.x);
+  a("on_faces_y", s.motion.on_contacts.y);
+  if (s.stepper == &paper_stepper) list_points(a, s.point_contacts);
   list_counts(a, s);
   list_slow_loading(a, s);
   list_wall_forces(a, s);
@@ -311,7 +311,7 @@ std::string recall(Simulation& sim, const Record& record) {
   if (!j.flaw().empty()) return j.flaw();
   complete_faces(sim.motion.contacts, sim.scene->blocks, sim.motion.laws);
   set_face_dashpots(sim.motion.contacts, sim.motion.laws, sim.motion.damping.contact);
-  complete_points(sim.motion.point_contacts, sim.scene->blocks, sim.motion.pose, sim.motion.laws);
+  complete_points(sim.point_contacts, sim.scene->blocks, sim.motion.pose, sim.motion.laws);
   fill_point_masses(sim.motion.masses, sim.scene->blocks);
   fill_viscosity(sim.motion.masses, sim.scene->blocks, sim.motion.damping);
   return j.flaw();

@@ -8,8 +8,12 @@
 #include "contacts/approach.hpp"
 #include "contacts/evaluate_faces.hpp"
 #include "contacts/face_bonds.hpp"
+#include "contacts/face_reading.hpp"
 #include "contacts/find_faces.hpp"
+#include "step/changes.hpp"
+#include "step/faces_now.hpp"
 #include "step/simulation.hpp"
+#include "step/step.hpp"
 
 namespace edda {
 
@@ -23,22 +27,32 @@ void place_all(Simulation& sim) {
 }
 
 void search(Simulation& sim, const Reach& reach) {
+  sim.stepper->search(sim, reach);
+}
+
+void sum_contact_forces(Simulation& sim) {
+  sim.stepper->sum_contacts(sim);
+}
+
+void search_faces(Simulation& sim, const Reach& reach) {
   if (sim.leapfrog.tiled.loaded && steps_in_tiles(sim)) return search_in_tiles(sim, reach);
   const BlockSet& blocks = sim.scene->blocks;
   State& state = sim.motion.state;
   Pose& pose = sim.motion.pose;
   LawTable& laws = sim.motion.laws;
   FaceSet& contacts = faces_to_change(sim);
-  if (sim.scene->at_points()) {
-    find_points(sim.motion.point_contacts, blocks, state, pose, laws, reach.apart);
-    State of_no_faces;
-    of_no_faces.alive.assign(blocks.size(), 0);
-    find_faces(contacts, blocks, of_no_faces, pose, laws, reach);
-  } else {
-    find_faces(contacts, blocks, state, pose, laws, reach, sim.control.near_edges);
-    set_face_dashpots(contacts, laws, sim.motion.damping.contact);
-  }
+  find_faces(contacts, blocks, state, pose, laws, reach, sim.control.near_edges);
+  set_face_dashpots(contacts, laws, sim.motion.damping.contact);
   sum_face_forces(sim);
+}
+
+/// Closed by the initial stress where there is one.
+void begin_faces(Simulation& sim) {
+  FaceSet& faces = sim.motion.contacts;
+  bond_faces(faces, sim.scene->blocks, sim.motion.pose, sim.motion.laws);
+  close_contacts(sim);
+  begin_from_step_end(faces);
+  for (auto* work : {&faces.friction_work, &faces.transfer}) work->fill(0.0);
 }
 
 FaceScene face_scene(const Simulation& sim) {
@@ -46,13 +60,22 @@ FaceScene face_scene(const Simulation& sim) {
 }
 
 void sum_face_forces(Simulation& sim) {
-  sum_faces(sim.motion.on_faces, sim.scene->blocks, sim.motion.contacts);
+  sum_faces(sim.motion.on_contacts, sim.scene->blocks, sim.motion.contacts);
+}
+
+std::optional<Failure> deep_overlap_of_faces(const Simulation& sim) {
+  const BlockSet& b = sim.scene->blocks;
+  const DeepestNow deepest = deepest_now(sim, 1.0);
+  if (deepest.ratio == 0.0) return std::nullopt;
+  const FaceSet& c = sim.motion.contacts;
+  return overlap_failure(block_of_edge(b, c, deepest.face), block_of_facing(b, c, deepest.face),
+                         deepest.depth, deepest.place, b, sim.motion.state, step_in_use(sim));
 }
 
 void reevaluate_faces(Simulation& sim) {
   if (sim.control.step_before > 0.0) {
     evaluate_faces(faces_to_change(sim), face_scene(sim), sim.control.step_before);
-    sum_face_forces(sim);
+    sum_contact_forces(sim);
   }
 }
 
@@ -61,7 +84,7 @@ void reevaluate_faces(Simulation& sim) {
 /// corners down to 30 degrees by 2 d.
 double overlap_of_next_edges(const Simulation& sim) {
   constexpr double per_sine = 2.0;
-  return sim.scene->at_points() ? 0.0 : per_sine * sim.accounts.penetration;
+  return per_sine * sim.accounts.penetration;
 }
 
 /// What blocks penetrate each other by may grow before the next list.

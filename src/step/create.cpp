@@ -113,7 +113,7 @@ void place_blocks(Simulation& sim) {
   Motion& motion = sim.motion;
   const std::size_t nb = blocks.size(), nv = blocks.vertex_count();
   motion.state = initial_state(blocks, sim.scene->polygons);
-  motion.forces = motion.on_faces = no_forces(blocks);
+  motion.forces = motion.on_contacts = no_forces(blocks);
   motion.on_dashpots.assign(sim.attached.dashpots.points.size(), Vec2{});
   sim.accounts.damping_work.joules.assign(nb, 0.0);
   Pose& pose = motion.pose;
@@ -124,24 +124,16 @@ void place_blocks(Simulation& sim) {
   pose.y2 = pose.y1 = pose.y;
 }
 
-/// Finds the contacts at the start, and closes them by the initial stress where there is one.
-void find_first_contacts(Simulation& sim) {
-  const BlockSet& blocks = sim.scene->blocks;
-  Motion& motion = sim.motion;
-  search(sim, next_reach(sim));
-  bond_faces(motion.contacts, blocks, motion.pose, motion.laws);
-  close_contacts(sim);
-  begin_from_step_end(motion.contacts);
-  // Twice: energies need the state a step before, which is the same at rest.
-  for (int n = 0; n < 2; ++n) move_points(motion.point_contacts, blocks, motion.pose, motion.laws);
-  for (auto* work : {&motion.contacts.friction_work, &motion.contacts.transfer}) work->fill(0.0);
+const Stepper& stepper_of(const Model& model) {
+  if (model.solver.method == Method::dda) return newmark_stepper;
+  return model.contact.model == ContactModel::points ? paper_stepper : leapfrog_stepper;
 }
 
 }  // namespace
 
 Result<Simulation> Simulation::create(Model given, BlockOrder order) {
   Simulation sim;
-  sim.stepper = given.solver.method == Method::edda ? &leapfrog_stepper : &newmark_stepper;
+  sim.stepper = &stepper_of(given);
   Result<Scene> scene = build_scene(std::move(given), order, *sim.stepper);
   if (!scene.ok()) return scene.faults();
   sim.scene = CopyOnWrite<Scene>(std::move(scene.value()));
@@ -160,7 +152,8 @@ Result<Simulation> Simulation::create(Model given, BlockOrder order) {
   if (!bolts.ok()) return bolts.faults();
   sim.attached.bolts = std::move(bolts.value());
   sim.control.limit = std::numeric_limits<double>::infinity();
-  find_first_contacts(sim);
+  search(sim, next_reach(sim));
+  sim.stepper->begin_contacts(sim);
   plan_slivers(sim);
   set_limit(sim);
   sim.attached.free_field =

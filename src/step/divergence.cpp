@@ -61,17 +61,4 @@ Failure overlap_failure(Id one, Id other, double depth, Vec2 place, const BlockS
   return f;
 }
 
-std::optional<Failure> deep_overlap(const PointSet& c, const BlockSet& b, const State& s,
-                                    const Pose& pose, double largest, double smallest_half_width,
-                                    const StepInUse& step) {
-  if (largest <= smallest_half_width) return std::nullopt;
-  for (std::size_t k = 0; k < c.size(); ++k) {
-    const Id i = b.vertex_block[c.vertex[k]], j = b.vertex_block[c.edge[k]];
-    const double depth = gap_of(c, b, pose, k).depth;
-    if (c.closed[k] > 0.0 && depth > std::min(b.inradius[i], b.inradius[j]))
-      return overlap_failure(i, j, depth, at(pose.x, pose.y, c.vertex[k]), b, s, step);
-  }
-  return std::nullopt;
-}
-
 }  // namespace edda

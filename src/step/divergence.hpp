@@ -9,7 +9,6 @@
 #include "blocks/block_set.hpp"
 #include "blocks/pose.hpp"
 #include "blocks/state.hpp"
-#include "contacts/points.hpp"
 #include "forces/nodal_forces.hpp"
 #include "model/model.hpp"
 
@@ -38,12 +37,5 @@ Failure lost_block(const BlockSet& blocks, const State& state, const Pose& pose,
 /// the half-width of the smaller.
 Failure overlap_failure(Id one, Id other, double depth, Vec2 place, const BlockSet& blocks,
                         const State& state, const StepInUse& step);
-
-/// A point contact that carries load and whose penetration exceeds the half-width of either of its
-/// blocks (BlockSet::inradius), if there is one. `largest`: largest penetration at present, m;
-/// contacts are checked only where it exceeds `smallest_half_width`.
-std::optional<Failure> deep_overlap(const PointSet& contacts, const BlockSet& blocks,
-                                    const State& state, const Pose& pose, double largest,
-                                    double smallest_half_width, const StepInUse& step);
 
 }  // namespace edda

@@ -59,7 +59,7 @@ EnergyBalance energy_balance(const Simulation& sim) {
   const State& s = sim.motion.state;
   const FaceSet& c = sim.motion.contacts;
   const Bolts& bolts = sim.attached.bolts;
-  const PointSet& points = sim.motion.point_contacts;
+  const PointSet& points = sim.point_contacts;
   const Accounts& accounts = sim.accounts;
   // Time by which positions go back: 0 where velocities belong to the same instant as positions
   // (and pose.x1 = pose.x).

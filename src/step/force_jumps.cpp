@@ -12,7 +12,7 @@ namespace edda {
 NodalForces forces_now(const Simulation& sim) {
   if (sim.stepper->velocity_lag == 0.0 || sim.control.step_before == 0.0) return {};
   NodalForces found = sim.motion.forces;
-  gather_forces(found, sim.scene->blocks, sim.motion.state, sim.motion.pose, sim.motion.on_faces,
+  gather_forces(found, sim.scene->blocks, sim.motion.state, sim.motion.pose, sim.motion.on_contacts,
                 sim.attached.springs, sim.scene->model.gravity, acting(sim), sim.motion.locked);
   return found;
 }

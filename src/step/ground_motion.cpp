@@ -13,7 +13,6 @@ LoadsNow acting(const Simulation& sim) {
   const Bolts& bolts = sim.attached.bolts;
   LoadsNow now = loads_at(sim.scene->model, sim.attached.loads, sim.motion.state.time);
   if (!bolts.rows.empty()) now.bolts = &bolts;
-  if (sim.scene->at_points()) now.on_nodes = &sim.motion.point_contacts.on_nodes;
   return now;
 }
 
@@ -132,7 +131,7 @@ Vec2 force_on_fixed(const Simulation& sim) {
   for (const Id i : sim.attached.ground.fixed_blocks) {
     NodeVectors f{};
     add_bolts(f, sim.attached.bolts, i);
-    const NodalForces& faces = sim.motion.on_faces;
+    const NodalForces& faces = sim.motion.on_contacts;
     on_fixed += resultant(vectors_of(faces.x, faces.y, i)) + resultant(f);
   }
   return on_fixed;

@@ -89,7 +89,7 @@ bool move(Simulation& sim, double h_old, double h_new, const LoadsNow* not_yet_g
   const DashpotScene before{blocks, sim.motion.masses, state, own.old_vx, own.old_vy};
   const BoundarySprings& springs = sim.attached.springs;
   const Vec2 gravity = sim.scene->model.gravity;
-  const ForcesToAdd to_add{sim.motion.on_faces.x, sim.motion.on_faces.y, forces.x, forces.y};
+  const ForcesToAdd to_add{sim.motion.on_contacts.x, sim.motion.on_contacts.y, forces.x, forces.y};
   const bool bend = blocks.bending.any();
   ModeDamping* const of_modes = bend ? mode_damping_of(sim, own.mode_damping) : nullptr;
   own.largest.assign(blocks.size() / fewest_at_once + 1, 0.0);
@@ -99,7 +99,7 @@ bool move(Simulation& sim, double h_old, double h_new, const LoadsNow* not_yet_g
       gather_own_forces(forces, blocks, state, pose, springs, gravity, *loads, sim.motion.locked,
                         begin, end);
     if (bend && loads != nullptr)
-      add_to_modes(blocks, sim.motion.on_faces.modes, forces.modes, begin, end);
+      add_to_modes(blocks, sim.motion.on_contacts.modes, forces.modes, begin, end);
     if (bend && loads == nullptr)
       take_back_couples(own.mode_damping, blocks, state, forces.x, forces.y, begin, end);
     if (bend) advance_modes(state, leap, of_modes, forces.x, forces.y, begin, end);

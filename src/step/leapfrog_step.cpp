@@ -59,10 +59,10 @@ void start_leapfrog(Simulation& sim) {
     start_ground(sim, h);
     correct_last_step(contacts, blocks, pose, old_x1, old_y1);
     evaluate_faces(contacts, face_scene(sim), h);
-    sum_face_forces(sim);
+    sum_contact_forces(sim);
   };
   look_back();
-  gather_forces(forces, blocks, state, pose, sim.motion.on_faces, sim.attached.springs,
+  gather_forces(forces, blocks, state, pose, sim.motion.on_contacts, sim.attached.springs,
                 sim.scene->model.gravity, acting(sim), sim.motion.locked);
   own.drive = dashpot_drive(sim, {}, sim.attached.free_field.columns);
   add_dashpots(forces, sim.motion.on_dashpots, sim.attached.dashpots,
@@ -112,8 +112,7 @@ bool move_blocks(Simulation& sim, double h_old, const LoadsNow& at_work) {
 }
 
 /// Evaluates the faces at n + 1, with the strength after the accumulated slip.
-void place_contacts(Simulation& sim) {
-  if (sim.attached.ground.moves) sim.leapfrog.on_fixed = force_on_fixed(sim);
+void place_faces(Simulation& sim) {
   sim.motion.contacts.risen.clear();
   sim.motion.contacts.risen_by.clear();
   if (steps_in_tiles(sim)) return place_in_tiles(sim);
@@ -125,11 +124,10 @@ void place_contacts(Simulation& sim) {
 }
 
 /// Contact activation: corrects the faces that opened or closed from n to n + 1.
-void switch_contacts(Simulation& sim, double h_old) {
+void switch_faces(Simulation& sim, double h_old) {
   Motion& motion = sim.motion;
   Accounts& accounts = sim.accounts;
   LeapfrogStep& own = sim.leapfrog;
-  own.switching.on_fixed = {};
   if (sim.scene->model.solver.switching == Switching::exact) {
     const StepTaken taken{sim.scene->blocks,
                           motion.masses,
@@ -158,11 +156,19 @@ void switch_contacts(Simulation& sim, double h_old) {
     sum_face_forces(sim);
     accounts.penetration = largest_closure(motion.contacts);
   }
-  if (sim.scene->at_points()) {
-    move_points(motion.point_contacts, sim.scene->blocks, motion.pose, motion.laws);
-    accounts.penetration = std::max(accounts.penetration, motion.point_contacts.deepest);
+}
+
+void load_faces_to_step(Simulation& sim) {
+  if (steps_in_tiles(sim)) {
+    load_tiles(sim);
+  } else {
+    faces_to_change(sim);
   }
-  accounts.max_penetration = std::max(accounts.max_penetration, accounts.penetration);
+}
+
+void evaluate_and_switch_faces(Simulation& sim, double h_old) {
+  place_faces(sim);
+  switch_faces(sim, h_old);
 }
 
 /// Accounts for work and dissipation of the step, once positions and velocities are final.
@@ -194,7 +200,7 @@ void adjust_step(Simulation& sim) {
   }
 }
 
-/// Brings the rows of the faces to step n where the step to n + 1 has failed.
+/// Brings the rows of the faces to step n, where the step to n + 1 has failed.
 void update_faces_before(Simulation& sim) {
   Pose& pose = sim.motion.pose;
   const auto turn = [&] {
@@ -213,24 +219,35 @@ void update_faces_before(Simulation& sim) {
 }
 
 std::optional<Failure> step_leapfrog(Simulation& sim) {
+  return leap(sim, {.load = load_faces_to_step,
+                    .evaluate = evaluate_and_switch_faces,
+                    .restore = update_faces_before});
+}
+
+void set_leapfrog_limit(Simulation& sim) {
+  scale_masses(sim);
+  limit_leap(sim, step_bound(stiffness_inputs(sim), &sim.control.step_cache));
+}
+
+}  // namespace
+
+std::optional<Failure> leap(Simulation& sim, const LeapContacts& contacts) {
   StageSeconds& seconds = sim.accounts.seconds;
   StageClock clock(sim.motion.state.steps);
   const double h_old = sim.control.step_before;
   split_jump(sim);
   const LoadsNow at_work = acting(sim);
   clock.lap(seconds.forces);
-  if (steps_in_tiles(sim)) {
-    load_tiles(sim);
-  } else {
-    faces_to_change(sim);
-  }
+  contacts.load(sim);
   if (!move_blocks(sim, h_old, at_work)) {
-    update_faces_before(sim);
+    contacts.restore(sim);
     return lost(sim);
   }
   clock.lap(seconds.integrate);
-  place_contacts(sim);
-  switch_contacts(sim, h_old);
+  sim.leapfrog.switching.on_fixed = {};
+  if (sim.attached.ground.moves) sim.leapfrog.on_fixed = force_on_fixed(sim);
+  contacts.evaluate(sim, h_old);
+  sim.accounts.max_penetration = std::max(sim.accounts.max_penetration, sim.accounts.penetration);
   clock.lap(seconds.forces);
   account_for_step(sim, h_old, at_work);
   update_bolts(sim.attached.bolts, sim.motion.state);
@@ -243,19 +260,18 @@ std::optional<Failure> step_leapfrog(Simulation& sim) {
   return inspect(sim);
 }
 
-void set_leapfrog_limit(Simulation& sim) {
+void scale_masses(Simulation& sim) {
+  const StepControl& control = sim.control;
+  if (sim.scene->model.solver.mass_scaling > 0.0 || control.scaled_step > 0.0 ||
+      control.sliver_step > 0.0)
+    raise_masses(sim);
+}
+
+void limit_leap(Simulation& sim, const StepBound& bound) {
   const Model& model = sim.scene->model;
   const State& state = sim.motion.state;
   StepControl& control = sim.control;
-  if (model.solver.mass_scaling > 0.0 || control.scaled_step > 0.0 || control.sliver_step > 0.0)
-    raise_masses(sim);
-  StiffnessInputs inputs = stiffness_inputs(sim);
-  control.bound = step_bound(inputs, &control.step_cache);
-  if (sim.scene->at_points()) {
-    inputs.points = &sim.motion.point_contacts;
-    const StepBound near = step_bound(inputs);
-    if (near.critical_step < control.bound.critical_step) control.bound = near;
-  }
+  control.bound = bound;
   if (model.solver.time_step) {
     const double most = model.solver.allow_unstable
                             ? control.cap
@@ -276,6 +292,8 @@ void set_leapfrog_limit(Simulation& sim) {
     control.larger_allowed_since = state.steps;
   }
 }
+
+namespace {
 
 /// v_n = (v_{n-1/2} + v_{n+1/2})/2; the next step is made on copies.
 void look_leapfrog(const Simulation& sim, Instant& at) {
@@ -344,6 +362,10 @@ const Stepper leapfrog_stepper{.start = start_leapfrog,
                                .step = step_leapfrog,
                                .look = look_leapfrog,
                                .remaining_travel = remaining_travel_of_leapfrog,
+                               .search = search_faces,
+                               .begin_contacts = begin_faces,
+                               .sum_contacts = sum_face_forces,
+                               .deep_overlap = deep_overlap_of_faces,
                                .ahead = ahead_of_leapfrog,
                                .margin = 2.0,
                                .least_reach = 0.0,

@@ -3,18 +3,35 @@
 // alone know the slip of the faces.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "attachments/free_field.hpp"
 #include "attachments/ground.hpp"
 #include "blocks/kinematics.hpp"
+#include "forces/step_bound.hpp"
 #include "integrate/leapfrog.hpp"
 #include "integrate/strain_damping.hpp"
+#include "step/divergence.hpp"
 #include "step/face_switching.hpp"
 #include "step/ground_motion.hpp"
 #include "step/tile_step.hpp"
 
 namespace edda {
+
+/// What a step of the leapfrog does with the contacts.
+struct LeapContacts {
+  void (*load)(Simulation&);  ///< before the blocks move
+  /// State and forces at n + 1; h_old: the step before, s.
+  void (*evaluate)(Simulation&, double h_old);
+  void (*restore)(Simulation&);  ///< those of n, where the step has failed
+};
+std::optional<Failure> leap(Simulation& sim, const LeapContacts& contacts);
+
+/// Raises the masses, where mass scaling is asked for or slivers need it.
+void scale_masses(Simulation& sim);
+/// Limits the step by this bound, and by what the model gives.
+void limit_leap(Simulation& sim, const StepBound& bound);
 
 struct LeapfrogStep {
   Nodes old_vx, old_vy;    ///< v_{n-1/2}, m/s; swapped with State::vx and vy as a step begins

@@ -9,7 +9,6 @@
 #include "blocks/state.hpp"
 #include "contacts/face_set.hpp"
 #include "contacts/laws.hpp"
-#include "contacts/points.hpp"
 #include "forces/nodal_forces.hpp"
 
 namespace edda {
@@ -20,8 +19,7 @@ struct Motion {
   Masses masses;  ///< in force
   LawTable laws;  ///< with the strength in force
   FaceSet contacts;
-  PointSet point_contacts;  ///< used instead of `contacts` where contact.model = "points"
-  NodalForces on_faces;     ///< forces of the faces at n on the blocks, N; of fixed
+  NodalForces on_contacts;  ///< forces of the contacts at n on the blocks, N; of fixed
                             ///< ones only where the ground moves or faces are stepped by rows
   NodalForces forces;
   ModeVectors locked;  ///< [modes] N, in the frame of each block: forces on its modes that balance

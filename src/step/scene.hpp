@@ -16,8 +16,6 @@ struct Scene {
   double base_reach = 0.0;           ///< m: least reach of the contact search
   double displacement_limit = 0.0;   ///< m: largest displacement of a vertex in one step
   double smallest_half_width = 0.0;  ///< m, of all blocks
-
-  bool at_points() const { return model.contact.model == ContactModel::points; }
 };
 
 }  // namespace edda

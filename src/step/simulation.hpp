@@ -4,6 +4,7 @@
 #include "base/copy_on_write.hpp"
 #include "base/fault.hpp"
 #include "implicit/newmark.hpp"
+#include "paper/points.hpp"
 #include "step/accounts.hpp"
 #include "step/attached.hpp"
 #include "step/leapfrog_step.hpp"
@@ -29,6 +30,7 @@ struct Simulation {
   const Stepper* stepper = nullptr;  ///< by solver.method
   LeapfrogStep leapfrog;             ///< working data of the leapfrog
   ImplicitSolver implicit;           ///< working data of Newmark's method
+  PointSet point_contacts;           ///< of the paper's model, in place of faces
 
   /// Cuts the domain, builds the blocks, finds contacts and bounds the step. Returns faults of the
   /// geometry as values.
@@ -37,7 +39,7 @@ struct Simulation {
 
 /// Whether its method is the explicit one (solver.method = "edda").
 inline bool is_explicit(const Simulation& sim) {
-  return sim.stepper == &leapfrog_stepper;
+  return sim.stepper->conditionally_stable;
 }
 
 }  // namespace edda

@@ -5,15 +5,12 @@
 #include <stdexcept>
 #include <string>
 
-#include "contacts/face_reading.hpp"
 #include "step/changes.hpp"
-#include "step/faces_now.hpp"
 #include "step/instant.hpp"
 #include "step/invariants.hpp"
 #include "step/simulation.hpp"
 
 namespace edda {
-namespace {
 
 StepInUse step_in_use(const Simulation& sim) {
   const State& state = sim.motion.state;
@@ -21,8 +18,6 @@ StepInUse step_in_use(const Simulation& sim) {
       sim.stepper->conditionally_stable ? sim.control.bound.critical_step : state.step;
   return {state.step, stable};
 }
-
-}  // namespace
 
 void start(Simulation& sim, double first_event) {
   fit_step_to(sim, first_event);
@@ -51,7 +46,7 @@ void observe(const Simulation& sim, Instant& at) {
   at.contacts = motion.contacts;
   at.state = motion.state;
   at.forces = motion.forces;
-  gather_forces(at.forces, sim.scene->blocks, motion.state, motion.pose, motion.on_faces,
+  gather_forces(at.forces, sim.scene->blocks, motion.state, motion.pose, motion.on_contacts,
                 sim.attached.springs, sim.scene->model.gravity, acting(sim), motion.locked);
   sim.stepper->look(sim, at);
 }
@@ -72,20 +67,9 @@ void finish_step(Simulation& sim) {
 }
 
 std::optional<Failure> inspect(const Simulation& sim) {
-  const BlockSet& blocks = sim.scene->blocks;
-  const State& state = sim.motion.state;
-  const Pose& pose = sim.motion.pose;
   if (!std::isfinite(sim.control.last_displacement)) return lost(sim);
-  if (sim.scene->at_points())
-    return deep_overlap(sim.motion.point_contacts, blocks, state, pose, sim.accounts.penetration,
-                        sim.scene->smallest_half_width, step_in_use(sim));
   if (sim.accounts.penetration <= sim.scene->smallest_half_width) return std::nullopt;
-  const DeepestNow deepest = deepest_now(sim, 1.0);
-  if (deepest.ratio == 0.0) return std::nullopt;
-  const FaceSet& c = sim.motion.contacts;
-  return overlap_failure(block_of_edge(blocks, c, deepest.face),
-                         block_of_facing(blocks, c, deepest.face), deepest.depth, deepest.place,
-                         blocks, state, step_in_use(sim));
+  return sim.stepper->deep_overlap(sim);
 }
 
 Failure lost(const Simulation& sim) {

@@ -27,6 +27,8 @@ std::optional<Failure> step_ahead(Simulation& sim);
 void finish_step(Simulation& sim);
 /// Checks for a state from which no run should continue.
 std::optional<Failure> inspect(const Simulation& sim);
+/// The step, and what the method's stability allows.
+StepInUse step_in_use(const Simulation& sim);
 /// The failure where values are not finite: its place and likely cause.
 Failure lost(const Simulation& sim);
 

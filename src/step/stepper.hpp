@@ -1,5 +1,6 @@
-// The interface of the two methods of stepping: the explicit one (leapfrog, with a step bounded by
-// stability) and the implicit one (Newmark with a global solve).
+// The interface of the methods of stepping: the explicit one (leapfrog, with a step bounded by
+// stability), the same with the contacts of the paper, and the implicit one (Newmark with a global
+// solve).
 #pragma once
 
 #include <cstddef>
@@ -11,6 +12,7 @@ namespace edda {
 
 struct Simulation;
 struct Instant;
+struct Reach;
 
 /// A method of stepping. All other parts of a simulation use it only through these members.
 struct Stepper {
@@ -27,6 +29,15 @@ struct Stepper {
   /// the stiffness of the motion, m; infinite: unknown.
   double (*remaining_travel)(const Simulation&, std::size_t i, double force);
 
+  /// Makes the list of all possible contacts within this reach.
+  void (*search)(Simulation&, const Reach&);
+  /// The contacts at the start, once they are listed.
+  void (*begin_contacts)(Simulation&);
+  /// Sums the forces of the contacts on each block (Motion::on_contacts).
+  void (*sum_contacts)(Simulation&);
+  /// Where two blocks overlap by more than the half-width of one of them.
+  std::optional<Failure> (*deep_overlap)(const Simulation&);
+
   /// Distance that any vertex may move in the next step, m.
   double (*ahead)(const Simulation&);
   /// The contact list is renewed when its reach is less than what two edges have approached each
@@ -42,6 +53,7 @@ struct Stepper {
 };
 
 extern const Stepper leapfrog_stepper;
+extern const Stepper paper_stepper;
 extern const Stepper newmark_stepper;
 
 }  // namespace edda

@@ -37,8 +37,8 @@ SweepScene sweep_scene(const Simulation& sim) {
 
 SweepResult sweep(Simulation& sim, std::size_t tile, bool keep, SweepScratch& scratch) {
   TiledFaces& own = sim.leapfrog.tiled;
-  return sweep_tile(own.tiles, sweep_scene(sim), tile, keep, scratch, sim.motion.on_faces.x,
-                    sim.motion.on_faces.y, sim.motion.on_faces.modes);
+  return sweep_tile(own.tiles, sweep_scene(sim), tile, keep, scratch, sim.motion.on_contacts.x,
+                    sim.motion.on_contacts.y, sim.motion.on_contacts.modes);
 }
 
 /// Whether a face in a chunk that rests may go on, although blocks have been pushed so far (m).
@@ -197,8 +197,8 @@ void gather(Simulation& sim, const std::vector<Id>& faces) {
   std::vector<char> no_scratch;
   parallel_tasks(in_tile.size(), 80 * faces.size(), no_scratch, [&](std::size_t tile, char&) {
     if (in_tile[tile] == 0 || own.tiles.kept[tile] == 0) return;
-    gather_tile(own.tiles, b, tile, wanted, sim.motion.on_faces.x, sim.motion.on_faces.y,
-                sim.motion.on_faces.modes);
+    gather_tile(own.tiles, b, tile, wanted, sim.motion.on_contacts.x, sim.motion.on_contacts.y,
+                sim.motion.on_contacts.modes);
   });
   mark(0);
 }
@@ -274,7 +274,7 @@ class FacesInTiles : public FaceAccess {
 bool steps_in_tiles(const Simulation& sim) {
   const TiledFaces& own = sim.leapfrog.tiled;
   const FaceSet& c = sim.motion.contacts;
-  return own.use && !sim.scene->at_points() && !sim.motion.laws.any_changes && !c.gluing;
+  return own.use && !sim.motion.laws.any_changes && !c.gluing;
 }
 
 namespace {

@@ -1,7 +1,6 @@
 #include "step/touching.hpp"
 
-#include "contacts/face_reading.hpp"
-#include "step/faces_now.hpp"
+#include "step/contact_pairs.hpp"
 #include "step/simulation.hpp"
 
 namespace edda {
@@ -19,12 +18,7 @@ std::vector<std::uint8_t> touching(const Simulation& sim) {
     if (!bolts.rows[r].grouted && bolts.bars.broken[bolts.begin[r]] != 0) continue;
     for (Id k = bolts.begin[r]; k < bolts.begin[r + 1]; ++k) touches[bolts.host[k]] = 1;
   }
-  const FaceSet& f = sim.motion.contacts;
-  for (std::size_t k = 0; k < f.size(); ++k) {
-    if (!is_closed_now(sim, k)) continue;
-    touches[block_of_edge(sim.scene->blocks, f, k)] =
-        touches[block_of_facing(sim.scene->blocks, f, k)] = 1;
-  }
+  for (const auto& [i, j] : blocks_in_contact(sim, Nearness::closed)) touches[i] = touches[j] = 1;
   return touches;
 }
 

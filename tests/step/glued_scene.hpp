@@ -40,8 +40,8 @@ inline Nodes accelerate(Simulation& s, bool along_x) {
   }
   evaluate_faces(s.motion.contacts, face_scene(s), 1.0);
   sum_face_forces(s);
-  gather_forces(s.motion.forces, s.scene->blocks, s.motion.state, s.motion.pose, s.motion.on_faces,
-                s.attached.springs, {0, 0});
+  gather_forces(s.motion.forces, s.scene->blocks, s.motion.state, s.motion.pose,
+                s.motion.on_contacts, s.attached.springs, {0, 0});
   Nodes a = along_x ? s.motion.forces.x : s.motion.forces.y;
   for (std::size_t i = 0; i < s.scene->blocks.size(); ++i) {
     for (std::size_t k = 0; k < 3; ++k) {

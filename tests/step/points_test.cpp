@@ -9,6 +9,7 @@
 #include "run/simulation_memory.hpp"
 #include "step/energy_balance.hpp"
 #include "step/step.hpp"
+#include "step/touching.hpp"
 
 namespace edda::points_run_test {
 namespace {
@@ -91,11 +92,10 @@ TEST(PointRuns, CarryHalfOfTheWeightAtEitherCorner) {
   go_on(sim, 0.5);
   const double weight = 2500.0 * 9.81;
   std::size_t closed = 0;
-  for (std::size_t k = 0; k < sim.motion.point_contacts.size(); ++k) {
-    if (sim.motion.point_contacts.closed[k] == 0.0) continue;
+  for (std::size_t k = 0; k < sim.point_contacts.size(); ++k) {
+    if (sim.point_contacts.closed[k] == 0.0) continue;
     ++closed;
-    const double depth =
-        gap_of(sim.motion.point_contacts, sim.scene->blocks, sim.motion.pose, k).depth;
+    const double depth = gap_of(sim.point_contacts, sim.scene->blocks, sim.motion.pose, k).depth;
     EXPECT_NEAR(1e9 * depth, 0.5 * weight, 1e-6 * weight);
   }
   EXPECT_EQ(closed, 2u);
@@ -141,11 +141,20 @@ TEST(PointRuns, BouncesKeepEnergyAtSmallSteps) {
       friction = l.friction;
     }
     EXPECT_GT(friction, 1e-4 * start);
-    EXPECT_EQ(closed_points(sim.motion.point_contacts), 0u);
+    EXPECT_EQ(closed_points(sim.point_contacts), 0u);
     error[fine] = std::abs(account_energy(sim).balance() - start) / start;
   }
   EXPECT_LT(error[0], 0.05);
   EXPECT_LT(error[1], 0.003);
+}
+
+/// A block that slides is in contact, not falling.
+TEST(PointRuns, BlocksTouchWhereTheirPointsAreClosed) {
+  Simulation sim = prepared(ramp(45.0, 10.0)).sim;
+  start(sim, 0.1);
+  go_on(sim, 0.1);
+  ASSERT_EQ(closed_points(sim.point_contacts), 2u);
+  EXPECT_EQ(touching(sim), std::vector<std::uint8_t>(2, 1));
 }
 
 /// While contacts stay closed and slide, the energy balance closes up to the error of rotation.
@@ -153,10 +162,10 @@ TEST(PointRuns, EnergyBalanceClosesWhileContactsStayClosed) {
   Simulation sim = prepared(ramp(45.0, 10.0) + "damping = { local = 0.3 }\n").sim;
   start(sim, 0.3);
   go_on(sim, 0.15);
-  ASSERT_EQ(closed_points(sim.motion.point_contacts), 2u);
+  ASSERT_EQ(closed_points(sim.point_contacts), 2u);
   const EnergyBalance before = account_energy(sim);
   go_on(sim, 0.3);
-  ASSERT_EQ(closed_points(sim.motion.point_contacts), 2u);
+  ASSERT_EQ(closed_points(sim.point_contacts), 2u);
   const EnergyBalance after = account_energy(sim);
   EXPECT_GT(after.friction, 1.5 * before.friction);
   EXPECT_NEAR((after.balance() - before.balance()) / after.kinetic, 0.0, 1e-6);
@@ -177,9 +186,9 @@ TEST(PointRuns, ResumeToTheSameBits) {
     EXPECT_EQ(whole.motion.state.x[k], resumed.motion.state.x[k]);
     EXPECT_EQ(whole.motion.state.vy[k], resumed.motion.state.vy[k]);
   }
-  EXPECT_EQ(whole.motion.point_contacts.friction, resumed.motion.point_contacts.friction);
+  EXPECT_EQ(whole.point_contacts.friction, resumed.point_contacts.friction);
   EXPECT_EQ(account_energy(whole).balance(), account_energy(resumed).balance());
-  EXPECT_GT(resumed.motion.point_contacts.friction, 0.0);
+  EXPECT_GT(resumed.point_contacts.friction, 0.0);
 }
 
 /// The bound of the step is safe: at the bound no disturbance grows, though contacts are stiffer

@@ -100,7 +100,7 @@ TEST(TileStep, RowsInBetweenChangeNothing) {
     if (n % 3 == 0) update_face_rows(asked);
     if (n % 5 == 0) faces_to_change(asked);
     ASSERT_EQ(ahead.motion.state.x, asked.motion.state.x) << n;
-    ASSERT_EQ(ahead.motion.on_faces.y, asked.motion.on_faces.y) << n;
+    ASSERT_EQ(ahead.motion.on_contacts.y, asked.motion.on_contacts.y) << n;
   }
   EXPECT_GT(ahead.accounts.open_close.switched, 20u);
 }
@@ -141,7 +141,7 @@ void compare_asleep_and_awake(const std::string& text, int steps) {
     ASSERT_FALSE(step_ahead(sleeping));
     ASSERT_FALSE(step_ahead(awake));
     ASSERT_EQ(sleeping.motion.state.x, awake.motion.state.x) << n;
-    ASSERT_EQ(sleeping.motion.on_faces.y, awake.motion.on_faces.y) << n;
+    ASSERT_EQ(sleeping.motion.on_contacts.y, awake.motion.on_contacts.y) << n;
     ASSERT_EQ(sleeping.accounts.penetration, awake.accounts.penetration) << n;
     for (const double rest : sleeping.leapfrog.tiled.tiles.rest) asleep += rest > 0.0 ? 1 : 0;
   }

@@ -9,15 +9,10 @@
 #include "blocks/pose.hpp"
 #include "blocks/state.hpp"
 #include "contacts/laws.hpp"
+#include "forces/block_equations.hpp"
+#include "forces/nodal_forces.hpp"
 
 namespace edda {
-
-/// A spring that may act on a block, for the bound of the time step.
-struct PointSpring {
-  Id block;
-  NodeWeights weight;  ///< weights of the nodes at the contact point
-  double factor;       ///< 1 against a fixed block, else 2
-};
 
 /// Vertices near edges of other blocks, sorted by vertex and edge, [np] each, with the memory of
 /// those in contact.
@@ -36,8 +31,7 @@ struct PointSet {
   std::vector<double> slipped;   ///< 1: has slid at least once
   std::vector<double> opened;    ///< 1: has opened after having been closed
 
-  std::vector<NodeVectors> on_nodes;              ///< [nb] forces of all contacts on the nodes, N
-  std::vector<PointSpring> springs;               ///< sorted by block
+  NearSprings springs;                            ///< of all contacts that are near
   double stiffness = 0.0, shear_stiffness = 0.0;  ///< p_n, p_t, N/m
   double energy = 0.0;    ///< stored between the last two steps, in the leapfrog's terms, J
   double friction = 0.0;  ///< dissipated by friction so far, J
@@ -59,9 +53,12 @@ void find_points(PointSet& points, const BlockSet& blocks, const State& state, c
 /// Computes states and forces at the positions of `pose`, one step after the last call.
 void move_points(PointSet& points, const BlockSet& blocks, const Pose& pose, const LawTable& laws);
 
-/// Computes the forces on the nodes from the memory of those in contact, and `springs`.
+/// Computes stiffnesses and `springs`.
 void complete_points(PointSet& points, const BlockSet& blocks, const Pose& pose,
                      const LawTable& laws);
+
+/// Sets the forces on the nodes to those of the contacts, N.
+void sum_points(NodalForces& on, const BlockSet& blocks, const PointSet& points, const Pose& pose);
 
 /// Position of vertex k relative to its edge.
 struct PointGap {

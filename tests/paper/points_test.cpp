@@ -4,9 +4,9 @@
 #include <cmath>
 
 #include "blocks/build_blocks.hpp"
-#include "contacts/points.hpp"
 #include "cutting/build_polygons.hpp"
 #include "model/read_model.hpp"
+#include "paper/points.hpp"
 
 namespace edda::points_test {
 namespace {
@@ -18,6 +18,7 @@ struct Scene {
   Pose pose;
   LawTable laws;
   PointSet points;
+  NodalForces on;  ///< those of the contacts
 
   explicit Scene(const std::string& shapes, double friction = 30.0) {
     Result<Model> model = read_model_text(
@@ -40,7 +41,11 @@ struct Scene {
     find_points(points, blocks, state, pose, laws, 0.1);
     move();
   }
-  void move() { move_points(points, blocks, pose, laws); }
+  void move() {
+    move_points(points, blocks, pose, laws);
+    on = no_forces(blocks);
+    sum_points(on, blocks, points, pose);
+  }
   /// Moves block i as a whole.
   void shift(Id i, Vec2 by) {
     for (Id v = blocks.vertex_begin[i]; v < blocks.vertex_begin[i + 1]; ++v) {
@@ -50,14 +55,14 @@ struct Scene {
     move();
   }
   Vec2 force_on(std::size_t i) const {
-    const auto& f = points.on_nodes[i];
+    const NodeVectors f = vectors_of(on.x, on.y, i);
     return f[0] + f[1] + f[2];
   }
   /// Moment about the origin of the blocks' coordinates, N m; the nodes as drawn.
   double moment_on(std::size_t i) const {
     double sum = 0.0;
     for (std::size_t k = 0; k < 3; ++k)
-      sum += cross({state.x[k][i], state.y[k][i]}, points.on_nodes[i][k]);
+      sum += cross({state.x[k][i], state.y[k][i]}, {on.x[k][i], on.y[k][i]});
     return sum;
   }
   /// The only contact.

@@ -1,4 +1,4 @@
-#include "contacts/points.hpp"
+#include "paper/points.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -89,7 +89,12 @@ std::size_t end_of_group(const PointSet& c, const BlockSet& b, std::size_t first
 /// Lists one spring on each side for each vertex and other block, at the nearest of the edges that
 /// the vertex may enter.
 void list_springs(PointSet& c, const BlockSet& b, const Pose& pose) {
-  c.springs.clear();
+  std::vector<std::pair<Id, SpringOnBlock>> springs;
+  const auto add = [&](Id block, const NodeWeights& weight, Id against) {
+    // In both directions, since it is not known which edge the vertex will meet.
+    const double p = (b.fixed[against] != 0 ? 1.0 : 2.0) * std::max(c.stiffness, c.shear_stiffness);
+    springs.push_back({block, {no_id, no_id, weight, {1.0, 0.0}, {0.0, 1.0}, p, p, 0.0, 0.0}});
+  };
   for (std::size_t first = 0, end = 0; first < c.size(); first = end) {
     end = end_of_group(c, b, first);
     double nearest = std::numeric_limits<double>::infinity(), xi = 0.0;
@@ -105,30 +110,37 @@ void list_springs(PointSet& c, const BlockSet& b, const Pose& pose) {
     }
     if (edge == no_id) continue;
     const Id i = block_of_vertex(c, b, first), j = b.vertex_block[edge];
-    c.springs.push_back({i, weights_of(b.weight, c.vertex[first]), b.fixed[j] != 0 ? 1.0 : 2.0});
-    c.springs.push_back(
-        {j, weights_between(b, edge, b.next[edge], xi), b.fixed[i] != 0 ? 1.0 : 2.0});
+    add(i, weights_of(b.weight, c.vertex[first]), j);
+    add(j, weights_between(b, edge, b.next[edge], xi), i);
   }
-  std::stable_sort(c.springs.begin(), c.springs.end(),
-                   [](const PointSpring& p, const PointSpring& q) { return p.block < q.block; });
+  std::stable_sort(springs.begin(), springs.end(),
+                   [](const auto& p, const auto& q) { return p.first < q.first; });
+  c.springs = {};
+  c.springs.begin.assign(b.size() + 1, 0);
+  for (const auto& [block, spring] : springs) {
+    ++c.springs.begin[block + 1];
+    c.springs.springs.push_back(spring);
+  }
+  for (std::size_t i = 0; i < b.size(); ++i) c.springs.begin[i + 1] += c.springs.begin[i];
 }
 
 /// F_i = -p_n S0 H/l, F_j = -p_n S0 G/l with H and G of Eq. 31 (Eq. 30), S0/l the penetration;
 /// shear as in Eqs. 34 and 35, on P1 and on P0.
-void gather(PointSet& c, const BlockSet& b, const Pose& pose) {
-  c.on_nodes.assign(b.size(), {});
+std::vector<NodeVectors> forces_of(const PointSet& c, const BlockSet& b, const Pose& pose) {
+  std::vector<NodeVectors> on(b.size(), NodeVectors{});
   for (std::size_t k = 0; k < c.size(); ++k) {
     if (c.closed[k] == 0.0) continue;
     const Id v = c.vertex[k], e = c.edge[k], to = b.next[e];
     const PointGap g = gap_of(c, b, pose, k);
     const Vec2 p1 = at(pose.x, pose.y, v), p2 = at(pose.x, pose.y, e), p3 = at(pose.x, pose.y, to);
     const double pressure = -c.normal[k] / g.length;
-    auto& on_edge_block = c.on_nodes[b.vertex_block[e]];
-    spread(c.on_nodes[b.vertex_block[v]], b, v, force_on_vertex(c, b, pose, k));
+    auto& on_edge_block = on[b.vertex_block[e]];
+    spread(on[b.vertex_block[v]], b, v, force_on_vertex(c, b, pose, k));
     spread(on_edge_block, b, e, pressure * Vec2{p3.y - p1.y, p1.x - p3.x});
     spread(on_edge_block, b, to, pressure * Vec2{p1.y - p2.y, p2.x - p1.x});
     spread(on_edge_block, weights_between(b, e, to, c.position[k]), g.tangent, -c.shear[k]);
   }
+  return on;
 }
 
 }  // namespace
@@ -202,14 +214,17 @@ void move_points(PointSet& c, const BlockSet& b, const Pose& pose, const LawTabl
       }
     }
   }
-  gather(c, b, pose);
 }
 
 void complete_points(PointSet& c, const BlockSet& b, const Pose& pose, const LawTable& laws) {
   c.stiffness = laws.thickness * laws.penalty.normal;
   c.shear_stiffness = laws.thickness * laws.penalty.shear;
   list_springs(c, b, pose);
-  gather(c, b, pose);
+}
+
+void sum_points(NodalForces& on, const BlockSet& b, const PointSet& c, const Pose& pose) {
+  const std::vector<NodeVectors> forces = forces_of(c, b, pose);
+  for (std::size_t i = 0; i < b.size(); ++i) store(forces[i], on.x, on.y, i);
 }
 
 }  // namespace edda

@@ -1,0 +1,40 @@
+#include "step/contact_pairs.hpp"
+
+#include "contacts/face_reading.hpp"
+#include "step/faces_now.hpp"
+#include "step/simulation.hpp"
+
+namespace edda {
+
+std::vector<std::pair<Id, Id>> blocks_in_contact(const Simulation& sim, Nearness nearness) {
+  constexpr double near = 1e-3;  // of the smaller block
+  const BlockSet& b = sim.scene->blocks;
+  const FaceSet& f = sim.motion.contacts;
+  std::vector<std::pair<Id, Id>> pairs;
+  for (std::size_t k = 0; k < f.size(); ++k) {
+    if (is_closed_now(sim, k) || (nearness == Nearness::touching && meets(f, k)) ||
+        (nearness == Nearness::near && meets_within(f, near * smaller_size(f, b, k), k)))
+      pairs.emplace_back(block_of_edge(b, f, k), block_of_facing(b, f, k));
+  }
+  const PointSet& p = sim.point_contacts;
+  for (std::size_t k = 0; k < p.size(); ++k) {
+    if (p.closed[k] > 0.0 || nearness == Nearness::near ||
+        (nearness == Nearness::touching && meets(p, b, sim.motion.pose, k, f.noise)))
+      pairs.emplace_back(b.vertex_block[p.vertex[k]], b.vertex_block[p.edge[k]]);
+  }
+  return pairs;
+}
+
+NormalForces normal_forces(const Simulation& sim) {
+  NormalForces pressed;
+  const auto add = [&](double force, std::size_t ends) {
+    if (!(force > 0.0)) return;
+    pressed.sum += force;
+    pressed.ends += ends;
+  };
+  for (const double force : normal_forces_now(sim)) add(force, 2);
+  for (const double force : sim.point_contacts.normal) add(force, 1);
+  return pressed;
+}
+
+}  // namespace edda
