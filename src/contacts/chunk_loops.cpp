@@ -171,19 +171,14 @@ EDDA_INLINE void write_forces(Records& on_e, Records& on_f, const CornerForces& 
   on_f.column[3][k] = f.q2.y;
 }
 
-/// As bond_fails(): beyond its tensile strength, apart, or beyond its shear strength.
-EDDA_INLINE bool bond_fails_in(const ChunkColumns& c, const Face& face, const FaceStep& s,
-                               std::size_t k) {
-  const double largest = larger(face.closure.a, face.closure.b);
-  const bool bonded = c.bonded[k] > 0.0, carries_tension = c.carries_tension[k] > 0.0;
-  const bool torn =
-      carries_tension & (outer_tension(face.normal) > c.bond_strength * c.tension[k] * face.length);
-  const bool apart = bonded & !carries_tension & (largest < -c.parts_at[k]);
-  const double rounding = 2.0 * s.spring * c.noise;
-  const bool sheared = bonded & (std::abs(s.shear.a + s.shear.b) >
-                                 rounding + c.bond_strength * c.cohesion[k] * face.cohesive +
-                                     c.friction[k] * (face.normal.a + face.normal.b));
-  return (torn | apart | sheared) & (c.glued[k] == 0.0);
+EDDA_INLINE bool bond_fails(const ChunkColumns& c, const Face& face, const FaceStep& s,
+                            std::size_t k) {
+  return failure_of({c.bonded[k] > 0.0, c.carries_tension[k] > 0.0, c.glued[k] > 0.0, c.friction[k],
+                     c.cohesion[k], c.tension[k], c.bond_strength, c.parts_at[k]},
+                    {face.closure, face.normal, s.shear.a + s.shear.b, s.spring, face.length,
+                     face.cohesive},
+                    c.noise)
+      .any();
 }
 
 /// What the lanes of a chunk tell, bits as lane_bits. All else follows from it and from what was.
@@ -210,14 +205,14 @@ EDDA_INLINE void evaluate_lane(const ChunkColumns& c, std::size_t k, Records& on
     return is ? bit << of : 0;
   };
   const double work = std::abs(s.friction) + std::abs(s.transfer);
-  const bool slides = (s.trial.a != s.slip.a) | (s.trial.b != s.slip.b);
+  const bool cut = is_cut(s.trial.a, s.slip.a) | is_cut(s.trial.b, s.slip.b);
   state |= mark(face.energy > 0.0, lane_bits::stored) | mark(face.gate > 0.0, lane_bits::on) |
            mark(s.closed_a, lane_bits::closed_a) | mark(s.closed_b, lane_bits::closed_b) |
            mark(s.touches, touches) | mark(in.before.spring > 0.0, carried) | mark(s.free, is_free);
   found |= mark(s.rare, lane_bits::rare) | mark(s.unrest | (work != 0.0), lane_bits::busy);
-  if constexpr (books) found |= mark(slides, lane_bits::slides);
+  if constexpr (books) found |= mark(cut, lane_bits::slides);
   if constexpr (use == Formulas::all) {
-    found |= mark(bond_fails_in(c, face, s, k), lane_bits::fails);
+    found |= mark(bond_fails(c, face, s, k), lane_bits::fails);
   }
   deepest = larger(deepest, s.depth);
 }

@@ -34,7 +34,7 @@ CornerForces recompute_shear(FaceSet& c, FaceFields<double>& m, const Face& face
   const FaceEnds here = slip_of(c, face, at, then, k);
   const double spring = m.spring, cohesion = 0.5 * c.cohesion[k] * face.cohesive;
   const auto again = [&](double normal, double trial, double slipped, double& force, double& slip) {
-    const double limit = std::max(cohesion + c.friction[k] * normal, 0.0);
+    const double limit = coulomb_limit(cohesion, c.friction[k], normal);
     const Shear next =
         cut<true>(trial, spring, inverse_of(spring), c.bonded[k] > 0.0 ? unlimited_shear : limit);
     // As lost(), for a change of T_n alone: the work of T_{n-1} stays as it was, and kept u_{n-1}

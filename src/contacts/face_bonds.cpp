@@ -8,6 +8,7 @@
 #include "contacts/face_reading.hpp"
 #include "contacts/find_faces.hpp"
 #include "contacts/joint_laws.hpp"
+#include "contacts/joint_strength.hpp"
 
 namespace edda {
 namespace {
@@ -18,17 +19,18 @@ void glue_for_now(FaceSet& c, std::size_t k) {
   c.glued[k] = c.bonded[k] = c.carries_tension[k] = 1.0;
 }
 
-/// Whether the outer fibre of face k is in more tension than its tensile strength.
-bool is_torn(const FaceSet& c, const FaceFields<double>& now, std::size_t k) {
-  return outer_tension({now.normal_a, now.normal_b}) > c.bond_strength * c.tension[k] * now.length;
-}
-
-/// Whether the shear force of both ends of the bonded face k is beyond its strength.
-bool is_sheared(const FaceSet& c, const FaceFields<double>& now, std::size_t k) {
-  const double shear = std::abs(now.shear_a + now.shear_b);
-  const double rounding = 2.0 * now.spring * c.noise;
-  return shear > rounding + c.bond_strength * c.cohesion[k] * now.cohesive +
-                     c.friction[k] * (now.normal_a + now.normal_b);
+BondFailure failure_now(const FaceSet& c, const BlockSet& b, const FaceFields<double>& now,
+                        std::size_t k) {
+  return failure_of(
+      {c.bonded[k] > 0.0, c.carries_tension[k] > 0.0, c.glued[k] > 0.0, c.friction[k],
+       c.cohesion[k], c.tension[k], c.bond_strength, drawn_gap * smaller_size(c, b, k)},
+      {{now.closure_a, now.closure_b},
+       {now.normal_a, now.normal_b},
+       now.shear_a + now.shear_b,
+       now.spring,
+       now.length,
+       now.cohesive},
+      c.noise);
 }
 
 }  // namespace
@@ -113,25 +115,22 @@ void bond_faces(FaceSet& c, const BlockSet& b, const Pose& pose, const LawTable&
 }
 
 bool bond_fails(const FaceSet& c, const BlockSet& b, const FaceFields<double>& now, std::size_t k) {
-  if (c.glued[k] > 0.0) return false;
-  const double largest = std::max(now.closure_a, now.closure_b);
-  if (c.carries_tension[k] > 0.0 && is_torn(c, now, k)) return true;
-  if (c.bonded[k] == 0.0) return false;
-  if (c.carries_tension[k] == 0.0 && largest < -drawn_gap * smaller_size(c, b, k)) return true;
-  return is_sheared(c, now, k);
+  return failure_now(c, b, now, k).any();
 }
 
-void break_bond(FaceSet& c, const LawTable& laws, const FaceFields<double>& now, std::size_t k) {
+void break_bond(FaceSet& c, const BlockSet& b, const LawTable& laws, const FaceFields<double>& now,
+                std::size_t k) {
   // What cracks from one end as it bends is whole at the other, which is pressed.
   const bool cracks = c.bonded[k] > 0.0 && c.carries_tension[k] > 0.0 &&
-                      std::max(now.closure_a, now.closure_b) > 0.0 && !is_sheared(c, now, k);
+                      std::max(now.closure_a, now.closure_b) > 0.0 &&
+                      !failure_now(c, b, now, k).sheared;
   const bool breaks = c.bonded[k] > 0.0 && !cracks;
   if (cracks) set_residual_tension(c, laws, k);
   if (!cracks) c.bonded[k] = 0.0;
   if (breaks) set_residual_strength(c, laws, k);
   c.mark_failure(k, breaks ? bond_breaks : 1.0);
   // The face releases altogether if its tension exceeds the residual tensile strength, too.
-  if (is_torn(c, now, k)) c.carries_tension[k] = 0.0;
+  if (failure_now(c, b, now, k).torn) c.carries_tension[k] = 0.0;
   c.opened[k] = 1.0;
 }
 

@@ -50,7 +50,8 @@ bool bond_fails(const FaceSet& faces, const BlockSet& blocks, const FaceFields<d
 /// cohesion and its friction, as if it had never had more than its residual tensile strength; else
 /// it has its residual strength from now on. It has no tensile strength if its tension exceeds the
 /// residual one, too.
-void break_bond(FaceSet& faces, const LawTable& laws, const FaceFields<double>& now, std::size_t k);
+void break_bond(FaceSet& faces, const BlockSet& blocks, const LawTable& laws,
+                const FaceFields<double>& now, std::size_t k);
 
 /// Accounts for `lost` (J), the decrease of the stored energy of face k at failure: as fracture
 /// energy where it is positive, as `transfer` (no physical process) where it is negative.

@@ -6,6 +6,7 @@
 #include "contacts/evaluate_faces.hpp"
 #include "contacts/face_bonds.hpp"
 #include "contacts/joint_laws.hpp"
+#include "contacts/joint_strength.hpp"
 
 namespace edda {
 namespace {
@@ -35,7 +36,7 @@ void add_to_joint(JointStress& joint, const FaceSet& c, const RequiredForces& re
   const double shear = std::abs(required.shear.a + required.shear.b);
   if (normal < -tension) joint.torn += length;
   constexpr double rounding = 1e-9;
-  const double strength = std::max(c.cohesion[k] * length + c.friction[k] * normal, 0.0);
+  const double strength = coulomb_limit(c.cohesion[k] * length, c.friction[k], normal);
   const double size = shear > rounding * std::abs(normal) ? shear : 0.0;
   if (normal > 0.0) {
     joint.ratio = std::max(joint.ratio, size / normal);

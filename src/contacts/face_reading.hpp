@@ -7,6 +7,7 @@
 
 #include "blocks/pose.hpp"
 #include "contacts/face_set.hpp"
+#include "contacts/joint_strength.hpp"
 
 namespace edda {
 
@@ -64,15 +65,14 @@ inline double shear_force(const FaceSet& f, std::size_t k) {
 /// Shear strength c L + N tan(phi), N (theory, section 5.1), of bonds as they hold at present.
 inline double shear_strength(const FaceSet& f, std::size_t k) {
   const double held = f.bonded[k] > 0.0 ? f.bond_strength : 1.0;
-  return std::max(held * f.cohesion[k] * f.now.cohesive[k] + f.friction[k] * normal_force(f, k),
-                  0.0);
+  return coulomb_limit(held * f.cohesion[k] * f.now.cohesive[k], f.friction[k], normal_force(f, k));
 }
 
 /// Whether Coulomb's limit has cut the shear force of one of its ends in the last step.
 inline bool slides(const FaceSet& f, std::size_t k) {
   const FaceMemory& m = f.now;
   return is_closed(f, k) && f.bonded[k] == 0.0 &&
-         (m.slip_a[k] != m.trial_a[k] || m.slip_b[k] != m.trial_b[k]);
+         (is_cut(m.trial_a[k], m.slip_a[k]) || is_cut(m.trial_b[k], m.slip_b[k]));
 }
 
 /// Forces of face k on its corners, N.

@@ -10,6 +10,7 @@
 #include "base/vector_loop.hpp"
 #include "contacts/face.hpp"
 #include "contacts/face_inputs.hpp"
+#include "contacts/joint_strength.hpp"
 
 namespace edda {
 
@@ -160,7 +161,7 @@ EDDA_INLINE EndActs act(const FaceInputs& in, const EndOfFace& end, double sprin
   const bool bonded = use == Formulas::all ? in.strength.bonded : false;
   const auto limit_under = [&](double normal) {
     if constexpr (limits_given) return given;
-    return bonded ? unlimited_shear : positive_part(cohesion + in.strength.friction * normal);
+    return bonded ? unlimited_shear : coulomb_limit(cohesion, in.strength.friction, normal);
   };
   if constexpr (!dashpots) {
     const Shear shear = cut<books>(end.trial, spring, per_spring, limit_under(end.normal));

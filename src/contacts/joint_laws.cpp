@@ -88,7 +88,7 @@ Sliding sliding_under(const FaceSet& c, FaceEnds moved, FaceEnds normal, std::si
   const double spring = m.spring[k], cohesion = 0.5 * c.cohesion[k] * m.cohesive[k];
   if (!(spring > 0.0) || c.bonded[k] > 0.0) return both;
   const auto add = [&](double slip, double more, double pressed) {
-    const double limit = std::max(cohesion + c.friction[k] * pressed, 0.0) / spring;
+    const double limit = coulomb_limit(cohesion, c.friction[k], pressed) / spring;
     const double trial = slip + more, cut = std::max(std::abs(trial) - limit, 0.0);
     both.slip += 0.5 * cut;
     both.friction += 0.5 * spring * cut * (limit + (trial < 0.0 ? -slip : slip));

@@ -25,7 +25,7 @@ double energy_of(const FaceMemory& m, std::size_t k) {
 double limit_of(const FaceSet& c, double normal, std::size_t k) {
   if (c.bonded[k] > 0.0) return unlimited_shear;
   const FaceMemory& m = c.before;
-  return std::max(0.5 * c.cohesion[k] * m.cohesive[k] + c.friction[k] * normal, 0.0);
+  return coulomb_limit(0.5 * c.cohesion[k] * m.cohesive[k], c.friction[k], normal);
 }
 
 void set_limits(FaceSprings& springs, const FaceSet& c, std::size_t k) {
@@ -39,8 +39,8 @@ std::uint8_t state_of(const FaceSet& c, const FaceMemory& m, std::size_t k) {
   const bool carries_tension = c.carries_tension[k] > 0.0;
   return static_cast<std::uint8_t>((carries_tension || m.closure_a[k] > 0.0 ? closed_a : 0) |
                                    (carries_tension || m.closure_b[k] > 0.0 ? closed_b : 0) |
-                                   (m.slip_a[k] != m.trial_a[k] ? slides_a : 0) |
-                                   (m.slip_b[k] != m.trial_b[k] ? slides_b : 0));
+                                   (is_cut(m.trial_a[k], m.slip_a[k]) ? slides_a : 0) |
+                                   (is_cut(m.trial_b[k], m.slip_b[k]) ? slides_b : 0));
 }
 
 /// Whether an end carries its full shear strength, to rounding.
@@ -125,7 +125,7 @@ std::vector<Id> break_overloaded(FaceSprings& springs, FaceSet& c, const BlockSe
     if (c.bonded[k] == 0.0 && c.carries_tension[k] == 0.0) continue;
     const FaceFields<double> now = row_of(c.now, k);
     if (!bond_fails(c, b, now, k)) continue;
-    break_bond(c, laws, now, k);
+    break_bond(c, b, laws, now, k);
     set_limits(springs, c, k);
     broken.push_back(static_cast<Id>(k));
   }

@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "contacts/joint_strength.hpp"
 #include "contacts/search.hpp"
 
 namespace edda {
@@ -63,7 +64,7 @@ void press(PointSet& c, const PointGap& g, double friction, std::size_t k) {
   const double normal_before = c.normal[k], shear_before = c.shear[k];
   const double normal = c.stiffness * g.depth;
   const double trial = -c.shear_stiffness * (g.along - c.position[k] * g.length);
-  const double limit = friction * normal;
+  const double limit = coulomb_limit(0.0, friction, normal);
   const bool slides = std::abs(trial) > limit;
   const double shear = slides ? std::copysign(limit, trial) : trial;
   if (slides) c.position[k] = (g.along + shear / c.shear_stiffness) / g.length;

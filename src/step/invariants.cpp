@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "contacts/joint_strength.hpp"
 #include "step/simulation.hpp"
 
 namespace edda {
@@ -32,10 +33,10 @@ bool in_range(double value, double from, double to) {
   return value >= from - rounding && value <= to + rounding;
 }
 
-/// Coulomb's limit at one end: half of the cohesion and the friction of its normal force.
+/// At one end: half of the cohesion and the friction of its normal force.
 bool within_limit(const FaceSet& c, std::size_t k, double shear, double normal) {
   const double limit =
-      std::max(0.5 * c.cohesion[k] * c.now.cohesive[k] + c.friction[k] * normal, 0.0);
+      coulomb_limit(0.5 * c.cohesion[k] * c.now.cohesive[k], c.friction[k], normal);
   return std::abs(shear) <= limit * (1.0 + 1e-9) + 1e-6;
 }
 
