@@ -26,6 +26,7 @@ struct ChunkColumns : EdgeConstants<const double*>, StrengthConstants<const doub
   FaceWorkColumns<double*> work;
   StandColumns<double*> stands;
   OverlapColumns<double*> overlaps;
+  PressureColumns<double*> pressures;
   const Records *e, *f, *e_then, *f_then, *mass_e, *mass_f;
   LaneBits was;
   double per_step, noise, bond_strength;
@@ -38,6 +39,7 @@ template <Tables tables>
 EDDA_INLINE ChunkColumns columns_of(const ChunkView& v) {
   ChunkColumns c{columns_from<EdgeConstants<const double*>>(v.edges),
                  columns_from<StrengthConstants<const double*>>(v.strengths),
+                 {},
                  {},
                  {},
                  {},
@@ -61,6 +63,7 @@ EDDA_INLINE ChunkColumns columns_of(const ChunkView& v) {
     c.work = columns_from<FaceWorkColumns<double*>>(v.work);
     c.stands = columns_from<StandColumns<double*>>(v.stands);
     c.overlaps = columns_from<OverlapColumns<double*>>(v.overlaps);
+    c.pressures = columns_from<PressureColumns<double*>>(v.pressures);
   }
   if constexpr (tables == Tables::memory_and_dashpots) {
     c.damped_before = columns_from<DashpotMemoryColumns<const double*>>(v.damped_before);

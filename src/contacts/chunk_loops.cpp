@@ -148,7 +148,12 @@ EDDA_INLINE void write_memory(const ChunkColumns& c, const FaceStep& s, std::siz
   }
 }
 
-EDDA_INLINE void write_work(const ChunkColumns& c, const FaceStep& s, std::size_t k) {
+EDDA_INLINE void write_work(const ChunkColumns& c, const Face& face, const FaceStep& s,
+                            std::size_t k) {
+  c.pressures.normal_a[k] = face.normal.a;
+  c.pressures.normal_b[k] = face.normal.b;
+  c.pressures.length[k] = positive_part(face.length);
+  c.pressures.cohesive[k] = face.cohesive;
   const FaceWorkColumns<double*>& w = c.work;
   w.friction_work[k] = s.friction;
   w.transfer[k] = s.transfer;
@@ -198,7 +203,7 @@ EDDA_INLINE void evaluate_lane(const ChunkColumns& c, std::size_t k, Records& on
   const Face face = face_between<use>(stands, overlap, in.pair);
   const FaceStep s = step_of_face<dashpots, false, use, books>(in, stands, face);
   write_memory<dashpots>(c, s, k);
-  if constexpr (books) write_work(c, s, k);
+  if constexpr (books) write_work(c, face, s, k);
   write_forces(on_e, on_f, s.force, k);
   const LaneBits bit = bit_of_lane[k];
   const auto mark = [bit](bool is, unsigned of) __attribute__((always_inline)) {

@@ -55,8 +55,8 @@ struct ChunkView {
   std::size_t chunk;
   const double *edges, *strengths, *before, *damped_before;
   double *memory, *damped, *work;
-  double *stands, *overlaps;  ///< StandColumns, OverlapColumns
-  const Records *e, *f;       ///< the edges
+  double *stands, *overlaps, *pressures;  ///< StandColumns, OverlapColumns, PressureColumns
+  const Records *e, *f;                   ///< the edges
   const Records *e_then = &no_corners, *f_then = &no_corners;
   const Records *mass_e = &no_corners, *mass_f = &no_corners;
 };
@@ -71,8 +71,8 @@ inline ChunkView view_of_constants(const SweepTables& t, std::size_t chunk) {
 }
 
 /// With all that the tile holds of it.
-inline ChunkView view_of(const SweepTables& t, std::size_t chunk, double* stands,
-                         double* overlaps) {
+inline ChunkView view_of(const SweepTables& t, std::size_t chunk, double* stands, double* overlaps,
+                         double* pressures) {
   const std::size_t n = chunk - t.first_chunk, memory = n * memory_columns * lanes;
   ChunkView view = view_of_constants(t, chunk);
   view.before = t.before + memory;
@@ -84,6 +84,7 @@ inline ChunkView view_of(const SweepTables& t, std::size_t chunk, double* stands
   }
   view.stands = stands;
   view.overlaps = overlaps;
+  view.pressures = pressures;
   return view;
 }
 
@@ -107,9 +108,9 @@ void stand_edges(const ChunkView& chunk);
 void overlap_edges(const ChunkView& chunk);
 
 /// The loops below need that. They evaluate a chunk: state, forces, and, where `work` is in the
-/// name, work. `bonded`: by all formulas; `plain`: by those of plain faces; else by those of faces
-/// without bonds (Formulas). Forces are stored unless the chunk turns out to need another of these
-/// loops: it is not plain (lane_bits::rare), or does work (lane_bits::busy).
+/// name, work and pressures. `bonded`: by all formulas; `plain`: by those of plain faces; else by
+/// those of faces without bonds (Formulas). Forces are stored unless the chunk turns out to need
+/// another of these loops: it is not plain (lane_bits::rare), or does work (lane_bits::busy).
 ChunkFound evaluate_bonded_at_rest(const ChunkView& chunk);
 ChunkFound evaluate_bonded_with_work(const ChunkView& chunk);
 ChunkFound evaluate_at_rest(const ChunkView& chunk);

@@ -151,14 +151,18 @@ void glue_faces(FaceSet& c, bool also_later) {
   mark_bonded_chunks(c);
 }
 
+bool glue_if_whole(FaceSet& c, FaceEnds closure, std::size_t k) {
+  if (std::min(closure.a, closure.b) < 0.0) return false;
+  glue_for_now(c, k);
+  return true;
+}
+
 void glue_pressed(FaceSet& c) {
   bool any = false;
   for (std::size_t k = 0; k < c.size(); ++k) {
     const bool pressed = c.before.energy[k] > 0.0 && c.now.energy[k] > 0.0;
-    const bool whole = std::min(c.now.closure_a[k], c.now.closure_b[k]) >= 0.0;
-    if (c.glued[k] > 0.0 || !pressed || !whole) continue;
-    glue_for_now(c, k);
-    any = true;
+    if (c.glued[k] > 0.0 || !pressed) continue;
+    any = glue_if_whole(c, {c.now.closure_a[k], c.now.closure_b[k]}, k) || any;
   }
   if (any) mark_bonded_chunks(c);
 }

@@ -67,6 +67,8 @@ void unglue_faces(FaceSet& faces, const BlockSet& blocks, const Pose& pose);
 /// In a stage that glues its joints: glues what has come into contact since, once it has been
 /// pressed for a whole step and is closed from end to end.
 void glue_pressed(FaceSet& faces);
+/// The same of one face that has been pressed; closure: now, m. Returns whether it glues it.
+bool glue_if_whole(FaceSet& faces, FaceEnds closure, std::size_t k);
 
 /// Fills `bonds`.
 void mark_bonded_chunks(FaceSet& faces);

@@ -199,6 +199,8 @@ struct FaceSet : ChunkTable<FaceProperties<ChunkColumn>, face_property_list<Chun
   std::vector<std::uint16_t> law;        ///< row of the LawTable
 
   bool dashpots = false;  ///< some face has dashpots, or had them in the current step
+  bool slip_laws =
+      false;  ///< a joint's strength or opening depends on its slip (LawTable::any_changes)
 
   // Empty while tiles keep the states of the faces (contacts/face_tiles.hpp).
   FaceMemory now;     ///< state at step n

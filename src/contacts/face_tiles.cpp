@@ -203,7 +203,7 @@ void begin_numbers(FaceTiles& t, const FacesOfTiles& of, const std::vector<std::
   const Tile& tile = t.tiles[q];
   TileNumbers numbers;
   numbers.first_chunk = tile.first_chunk;
-  numbers.resize((carry + lanes - 1) / lanes, t.dashpots);
+  numbers.resize((carry + lanes - 1) / lanes, t);
   t.numbers[q] = std::move(numbers);
   // A tile without faces may begin where the table ends.
   std::fill_n(t.sums.data() + tile.first_chunk * sum_columns * lanes,
@@ -222,11 +222,12 @@ void join_halos(FaceTiles& t, const std::vector<std::vector<Id>>& halos) {
 
 }  // namespace
 
-void TileNumbers::resize(std::size_t count, bool with_dashpots) {
+void TileNumbers::resize(std::size_t count, const FaceTiles& of) {
   chunks = static_cast<Id>(count);
   for (const int which : {0, 1}) {
     resize_table(memory[which], count * memory_columns * lanes);
-    resize_table(dashpots[which], with_dashpots ? count * dashpot_memory_columns * lanes : 0);
+    resize_table(dashpots[which], of.dashpots ? count * dashpot_memory_columns * lanes : 0);
+    resize_table(pressures[which], of.slip_laws ? count * pressure_columns * lanes : 0);
     resize_table(work[which], count * work_columns * lanes);
   }
 }
@@ -259,6 +260,7 @@ void lay_out(FaceTiles& t, const FaceSet& c, const BlockSet& b,
   sort_by_kind(of, kind);
   resize_chunks(t, place_tiles(t, of, b));
   t.dashpots = c.dashpots;
+  t.slip_laws = c.slip_laws;
   t.numbers.resize(t.tiles.size());
   t.place.assign(c.size(), {no_id, no_id});
   std::vector<std::vector<Id>> halos(t.tiles.size());

@@ -63,6 +63,13 @@ struct DashpotMemoryColumns {
 inline constexpr std::size_t dashpot_memory_columns =
     sizeof(DashpotMemoryColumns<double>) / sizeof(double);
 
+/// What laws that depend on slip read of a face that carries load. Members as in FaceFields.
+template <class C>
+struct PressureColumns {
+  C normal_a, normal_b, length, cohesive;
+};
+inline constexpr std::size_t pressure_columns = sizeof(PressureColumns<double>) / sizeof(double);
+
 /// Work of a step, slip before Coulomb's limit, and shear. Members as in FaceFields; kept for the
 /// chunks where any work is not 0, or a face slides.
 template <class C>
@@ -172,16 +179,18 @@ struct TileConstants {
 /// What a tile remembers of the faces in its first chunks, of steps n and n - 1 in turn
 /// (FaceTiles::now). Those in the others sleep, or have just been listed: they have carried
 /// nothing and done no work.
+struct FaceTiles;
 struct TileNumbers {
-  Id first_chunk = 0;          ///< that of the tile
-  Id chunks = 0;               ///< of how many it remembers anything
-  AlignedNumbers memory[2];    ///< [chunks][memory_columns][8]
-  AlignedNumbers dashpots[2];  ///< [chunks][dashpot_memory_columns][8]; empty: no dashpots
-  AlignedNumbers work[2];      ///< [chunks][work_columns][8], where FaceTiles::fresh
+  Id first_chunk = 0;           ///< that of the tile
+  Id chunks = 0;                ///< of how many it remembers anything
+  AlignedNumbers memory[2];     ///< [chunks][memory_columns][8]
+  AlignedNumbers dashpots[2];   ///< [chunks][dashpot_memory_columns][8]; empty: no dashpots
+  AlignedNumbers pressures[2];  ///< [chunks][pressure_columns][8]; empty: no such laws
+  AlignedNumbers work[2];       ///< [chunks][work_columns][8], where FaceTiles::fresh
 
   bool holds(std::size_t chunk) const { return chunk - first_chunk < chunks; }
   /// Remembers the faces of so many chunks; of those that are new nothing: all is 0.
-  void resize(std::size_t count, bool with_dashpots);
+  void resize(std::size_t count, const FaceTiles& of);
 };
 
 struct FaceTiles {
@@ -220,6 +229,7 @@ struct FaceTiles {
   std::vector<Id> edge_set, strength_set;  ///< [chunks] their constants; no_id: none yet
 
   bool dashpots = false;             ///< as FaceSet::dashpots
+  bool slip_laws = false;            ///< as FaceSet::slip_laws
   std::vector<TileNumbers> numbers;  ///< [tiles]
   std::vector<LaneBits> bits[2];     ///< [chunks] of steps n and n - 1 in turn
   std::vector<LaneBits> found[2];    ///< [chunks] of that step
@@ -231,6 +241,9 @@ struct FaceTiles {
 
   /// A bit of face k of step n, by its owned copy; false where it has none. Of those remembered:
   bool remembers(unsigned of, std::size_t k) const { return bit_of(bits[now], of, k); }
+  bool remembered_before(unsigned of, std::size_t k) const {  ///< of step n - 1
+    return bit_of(bits[1 - now], of, k);
+  }
   /// Of those found in the step:
   bool has_found(unsigned of, std::size_t k) const { return bit_of(found[now], of, k); }
   /// Whether anything is remembered of the faces of a chunk (TileNumbers).

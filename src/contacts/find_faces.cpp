@@ -190,6 +190,7 @@ void complete_faces(FaceSet& c, const BlockSet& b, const LawTable& laws) {
     fill_constants_of_edges(c, b, k);
     fill_constants_of_law(c, b, laws, k);
   }
+  c.slip_laws = laws.any_changes;
   complete_list(c, b);
 }
 
@@ -243,6 +244,7 @@ std::vector<Id> renew_faces(FaceSet& faces, const BlockSet& b, const State& stat
     if (stays[k] == 0) retire(next, faces, k);
   }
   complete_list(next, b);
+  next.slip_laws = laws.any_changes;
   next.dashpots = copies ? dashpots_work(next.now) : faces.dashpots;
   next.rebuilds = faces.rebuilds;
   note_list(next, pose, reach);

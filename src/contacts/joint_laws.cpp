@@ -43,16 +43,30 @@ InForce rough(const Law& law, double slip, double length, double sigma, double d
           std::tan(radians(0.5 * (angle - law.residual_angle)))};
 }
 
-InForce in_force(const FaceSet& c, const LawTable& laws, std::size_t k) {
+/// m: the state of face k at n, as everywhere below.
+InForce in_force(const FaceSet& c, const LawTable& laws, const FaceFields<double>& m,
+                 std::size_t k) {
   const Law& law = laws.rows[c.law[k]];
-  const FaceMemory& m = c.before;
   if (law.type == LawType::slip_weakening) return weakened(law, c.slip_so_far[k]);
-  if (law.type == LawType::barton_bandis && m.length[k] > 0.0) {
-    const double sigma =
-        std::max(m.normal_a[k] + m.normal_b[k], 0.0) / (m.length[k] * laws.thickness);
-    return rough(law, c.slip_so_far[k], m.length[k], sigma, laws.divided_by[c.law[k]]);
+  if (law.type == LawType::barton_bandis && m.length > 0.0) {
+    const double sigma = std::max(m.normal_a + m.normal_b, 0.0) / (m.length * laws.thickness);
+    return rough(law, c.slip_so_far[k], m.length, sigma, laws.divided_by[c.law[k]]);
   }
   return {c.friction[k], 0.0, 0.0, c.slip_so_far[k] < law.slip_distance ? law.dilation : 0.0};
+}
+
+/// Finds what follows from the corners at n.
+void complete(const FaceSet& c, const BlockSet& b, const Pose& pose, FaceAtN& at_n, std::size_t k) {
+  if (at_n.complete) return;
+  const Face face = face_at(c, b, pose.x1, pose.y1, k);
+  FaceFields<double>& m = at_n.state;
+  m.closure_a = face.closure.a;
+  m.closure_b = face.closure.b;
+  m.normal_a = face.normal.a;
+  m.normal_b = face.normal.b;
+  m.length = std::max(face.length, 0.0);
+  m.cohesive = face.cohesive;
+  at_n.complete = true;
 }
 
 void open_by(FaceSet& c, std::size_t k, double rise) {
@@ -69,10 +83,11 @@ double dilating_part(const FaceSet& c, const Law& law, std::size_t k, double sli
 }
 
 /// Adds a slip of the joint to its accumulated slip and to its outstanding dilation.
-void take_slip(FaceSet& c, const LawTable& laws, std::size_t k, double slip) {
+void take_slip(FaceSet& c, const LawTable& laws, const FaceFields<double>& m, std::size_t k,
+               double slip) {
   if (slip == 0.0) return;
   const double part = dilating_part(c, laws.rows[c.law[k]], k, slip);
-  c.dilation_left[k] += in_force(c, laws, k).dilation * part;
+  c.dilation_left[k] += in_force(c, laws, m, k).dilation * part;
   c.slip_so_far[k] += slip;
 }
 
@@ -82,10 +97,10 @@ struct Sliding {
 };
 /// As evaluate_faces() will find it, with the normal forces `normal` at n + 1. moved: the ends
 /// along the joint.
-Sliding sliding_under(const FaceSet& c, FaceEnds moved, FaceEnds normal, std::size_t k) {
-  const FaceMemory& m = c.before;
+Sliding sliding_under(const FaceSet& c, const FaceFields<double>& m, FaceEnds moved,
+                      FaceEnds normal, std::size_t k) {
   Sliding both;
-  const double spring = m.spring[k], cohesion = 0.5 * c.cohesion[k] * m.cohesive[k];
+  const double spring = m.spring, cohesion = 0.5 * c.cohesion[k] * m.cohesive;
   if (!(spring > 0.0) || c.bonded[k] > 0.0) return both;
   const auto add = [&](double slip, double more, double pressed) {
     const double limit = coulomb_limit(cohesion, c.friction[k], pressed) / spring;
@@ -93,8 +108,8 @@ Sliding sliding_under(const FaceSet& c, FaceEnds moved, FaceEnds normal, std::si
     both.slip += 0.5 * cut;
     both.friction += 0.5 * spring * cut * (limit + (trial < 0.0 ? -slip : slip));
   };
-  add(m.slip_a[k], moved.a, normal.a);
-  add(m.slip_b[k], moved.b, normal.b);
+  add(m.slip_a, moved.a, normal.a);
+  add(m.slip_b, moved.b, normal.b);
   return both;
 }
 
@@ -108,23 +123,26 @@ struct Lift {
 /// Opens the face by its outstanding dilation and by that of the slip between n and n + 1, at most
 /// by what the friction of this step can supply, and that of all steps up to n. An opening r takes
 /// r (N_n + N_{n+1})/2.
-void lift(FaceSet& c, const BlockSet& b, const Pose& pose, const LawTable& laws, std::size_t k) {
-  const FaceMemory& m = c.before;
+void lift(FaceSet& c, const BlockSet& b, const Pose& pose, const LawTable& laws, FaceAtN& at_n,
+          std::size_t k) {
+  const FaceFields<double>& m = at_n.state;
   if (!(c.friction_work[k] > 0.0)) return;
+  if (c.cohesion[k] > 0.0) complete(c, b, pose, at_n, k);
   const Face closed = face_at(c, b, pose.x, pose.y, k);
   const FaceEnds moved =
       slip_of(c, closed, face_points(c, pose.x, pose.y, k), face_points(c, pose.x1, pose.y1, k), k);
-  const Sliding in_place = sliding_under(c, moved, closed.normal, k);
+  const Sliding in_place = sliding_under(c, m, moved, closed.normal, k);
   if (!(in_place.friction > 0.0)) return;
+  complete(c, b, pose, at_n, k);
   const Law& law = laws.rows[c.law[k]];
-  const double outstanding = c.dilation_left[k], dilation = in_force(c, laws, k).dilation;
+  const double outstanding = c.dilation_left[k], dilation = in_force(c, laws, m, k).dilation;
   const double most = outstanding + dilation * dilating_part(c, law, k, in_place.slip);
   if (!(most > 0.0)) return;
   const auto after = [&](double rise) -> Lift {
     const FaceEnds next = face_at(c, b, pose.x, pose.y, k, -rise).normal;
-    const Sliding sliding = sliding_under(c, moved, next, k);
+    const Sliding sliding = sliding_under(c, m, moved, next, k);
     return {outstanding + dilation * dilating_part(c, law, k, sliding.slip),
-            m.normal_a[k] + m.normal_b[k] + next.a + next.b, sliding.friction};
+            m.normal_a + m.normal_b + next.a + next.b, sliding.friction};
   };
   const auto affords = [&](double rise, const Lift& l) {
     return 0.5 * rise * l.normal <= std::min(l.friction, c.friction_work[k]);
@@ -153,19 +171,19 @@ void lift(FaceSet& c, const BlockSet& b, const Pose& pose, const LawTable& laws,
 /// asperities still face each other; the dilation does not exceed the gap, so it does not close the
 /// joint.
 void take_slip_while_open(FaceSet& c, const BlockSet& b, const Pose& pose, const LawTable& laws,
-                          std::size_t k) {
+                          const FaceFields<double>& m, std::size_t k) {
   const Face face = face_at(c, b, pose.x, pose.y, k);
   const FaceEnds slip =
       slip_of(c, face, face_points(c, pose.x, pose.y, k), face_points(c, pose.x1, pose.y1, k), k);
-  take_slip(c, laws, k, 0.5 * std::abs(slip.a + slip.b));
+  take_slip(c, laws, m, k, 0.5 * std::abs(slip.a + slip.b));
   const double gap = -std::max(face.closure.a, face.closure.b);
   const double rise = std::clamp(gap, 0.0, std::max(c.dilation_left[k], 0.0));
   open_by(c, k, rise);
 }
 
-void put_in_force(FaceSet& c, const LawTable& laws, std::size_t k) {
+void put_in_force(FaceSet& c, const LawTable& laws, const FaceFields<double>& m, std::size_t k) {
   if (laws.rows[c.law[k]].type == LawType::coulomb) return;
-  const InForce now = in_force(c, laws, k);
+  const InForce now = in_force(c, laws, m, k);
   c.friction[k] = now.friction;
   c.cohesion[k] = now.cohesion * laws.thickness;
   c.tension[k] = now.tension * laws.thickness;
@@ -200,39 +218,47 @@ double barton_angle(const Law& law, double roughness, double sigma) {
 
 void put_strengths_in_force(FaceSet& c, const LawTable& laws) {
   for (std::size_t k = 0; laws.any_changes && k < c.size(); ++k) {
-    if (laws.rows[c.law[k]].changes && c.before.gate[k] > 0.0) put_in_force(c, laws, k);
+    if (laws.rows[c.law[k]].changes && c.before.gate[k] > 0.0)
+      put_in_force(c, laws, row_of(c.before, k), k);
   }
 }
-
-namespace {
 
 void update_joint_law(FaceSet& c, const BlockSet& b, const Pose& pose, const LawTable& laws,
-                      std::size_t k) {
-  const FaceMemory& m = c.before;
+                      FaceAtN& at_n, std::size_t k) {
   const Law& law = laws.rows[c.law[k]];
-  if (!law.changes) return;
-  const double closure = std::max(m.closure_a[k], m.closure_b[k]);
-  if (m.energy[k] > 0.0 || c.carries_tension[k] > 0.0) {
-    const double cut = std::abs(m.trial_a[k] - m.slip_a[k]) + std::abs(m.trial_b[k] - m.slip_b[k]);
-    take_slip(c, laws, k, c.bonded[k] > 0.0 ? 0.0 : 0.5 * cut);
-    put_in_force(c, laws, k);
-    if (dilates(law) && m.energy[k] > 0.0) lift(c, b, pose, laws, k);
-  } else if (dilates(law) && c.opened[k] > 0.0 && m.gate[k] > 0.0 &&
-             -closure < dilation_gap * smaller_size(c, b, k)) {
-    take_slip_while_open(c, b, pose, laws, k);
-  } else if (law.type == LawType::slip_weakening && c.slip_so_far[k] < law.slip_distance) {
-    if (closure < -drawn_gap * smaller_size(c, b, k)) c.slip_so_far[k] = first_slip(law);
+  const FaceFields<double>& m = at_n.state;
+  if (m.energy > 0.0 || c.carries_tension[k] > 0.0) {
+    if (law.type == LawType::barton_bandis) complete(c, b, pose, at_n, k);
+    const double cut = std::abs(m.trial_a - m.slip_a) + std::abs(m.trial_b - m.slip_b);
+    take_slip(c, laws, m, k, c.bonded[k] > 0.0 ? 0.0 : 0.5 * cut);
+    put_in_force(c, laws, m, k);
+    if (dilates(law) && m.energy > 0.0) lift(c, b, pose, laws, at_n, k);
+    return;
+  }
+  const bool may_dilate = dilates(law) && c.opened[k] > 0.0 && m.gate > 0.0;
+  const bool may_part = law.type == LawType::slip_weakening && c.slip_so_far[k] < law.slip_distance;
+  if (!may_dilate && !may_part) return;
+  complete(c, b, pose, at_n, k);
+  const double closure = std::max(m.closure_a, m.closure_b), size = smaller_size(c, b, k);
+  if (may_dilate && -closure < dilation_gap * size) {
+    take_slip_while_open(c, b, pose, laws, m, k);
+  } else if (may_part && closure < -drawn_gap * size) {
+    c.slip_so_far[k] = first_slip(law);
   }
 }
-
-}  // namespace
 
 void update_joint_laws(FaceSet& c, const BlockSet& b, const Pose& pose, const LawTable& laws) {
   c.risen.assign(c.size(), 0.0);
   c.risen_by.assign(c.size(), 0.0);
   constexpr std::size_t cost = 100;
   parallel_for(
-      c.size(), [&](std::size_t k) { update_joint_law(c, b, pose, laws, k); }, cost);
+      c.size(),
+      [&](std::size_t k) {
+        if (!laws.rows[c.law[k]].changes) return;
+        FaceAtN at_n{row_of(c.before, k), true};
+        update_joint_law(c, b, pose, laws, at_n, k);
+      },
+      cost);
 }
 
 }  // namespace edda

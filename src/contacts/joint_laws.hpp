@@ -39,6 +39,15 @@ double barton_angle(const Law& law, double roughness, double sigma);
 /// the memory, and pose.x at n + 1 or, with the implicit method, at n.
 void update_joint_laws(FaceSet& faces, const BlockSet& blocks, const Pose& pose,
                        const LawTable& laws);
+/// A face at n: where `complete` is false only what it remembers, and what follows from its corners
+/// (closures, normal forces, lengths) is found where a law asks for it.
+struct FaceAtN {
+  FaceFields<double> state;
+  bool complete;
+};
+/// The same of one face whose law changes.
+void update_joint_law(FaceSet& faces, const BlockSet& blocks, const Pose& pose,
+                      const LawTable& laws, FaceAtN& at_n, std::size_t k);
 /// Updates the strength alone, from the accumulated slip and the present normal force.
 void put_strengths_in_force(FaceSet& faces, const LawTable& laws);
 

@@ -61,7 +61,17 @@ inline constexpr auto table_of<FaceMemoryColumns<double>> = &TileNumbers::memory
 template <>
 inline constexpr auto table_of<DashpotMemoryColumns<double>> = &TileNumbers::dashpots;
 template <>
+inline constexpr auto table_of<PressureColumns<double>> = &TileNumbers::pressures;
+template <>
 inline constexpr auto table_of<FaceWorkColumns<double>> = &TileNumbers::work;
+
+/// Calls visit.operator()<Fields>() for the tables of what faces remember.
+template <class Visit>
+void for_memory(const FaceTiles& t, Visit visit) {
+  visit.template operator()<FaceMemoryColumns<double>>();
+  if (t.dashpots) visit.template operator()<DashpotMemoryColumns<double>>();
+  if (t.slip_laws) visit.template operator()<PressureColumns<double>>();
+}
 
 /// The numbers of a chunk in one of these, of step n (which = FaceTiles::now) or n - 1. The tile
 /// must hold it.

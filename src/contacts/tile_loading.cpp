@@ -32,10 +32,10 @@ EdgeConstants<double> edge_constants(const FaceSet& c, const BlockSet& b, const 
           p.turn_q2.x,
           p.turn_q2.y};
 }
-StrengthConstants<double> strength_constants(const FaceSet& c, const FacePair& p, std::size_t k) {
-  return {p.ends,          c.friction[k],     c.cohesion[k], p.offset.a,
-          p.offset.b,      p.carries_tension, c.bonded[k],   c.zeta[k],
-          c.shear_zeta[k], c.rebound[k],      c.tension[k],  c.glued[k]};
+StrengthConstants<double> strength_constants(const FaceSet& c, std::size_t k) {
+  return {c.at_ends[k] * c.leans[k], c.friction[k],        c.cohesion[k], c.locked_closure_a[k],
+          c.locked_closure_b[k],     c.carries_tension[k], c.bonded[k],   c.zeta[k],
+          c.shear_zeta[k],           c.rebound[k],         c.tension[k],  c.glued[k]};
 }
 /// Of a lane without a face: no length and no stiffness; `passing` is divided by.
 EdgeConstants<double> no_constants() {
@@ -80,6 +80,10 @@ void load_memory(FaceTiles& t, const FaceSet& c, const FaceMemory& m, const std:
       put(t, which, place,
           DashpotMemoryColumns<double>{m.damping_a[k], m.damping_b[k], m.shear_damping_a[k],
                                        m.shear_damping_b[k], m.strike_a[k], m.strike_b[k]});
+    }
+    if (t.slip_laws) {
+      put(t, which, place,
+          PressureColumns<double>{m.normal_a[k], m.normal_b[k], m.length[k], m.cohesive[k]});
     }
   }
   const bool stored = m.energy[k] > 0.0, touches = stored || m.spring[k] > 0.0;
@@ -192,7 +196,7 @@ void load_chunk_constants(FaceTiles& t, const FaceSet& c, const BlockSet& b, std
     }
     const FacePair pair = face_pair(c, b.exterior_cosine.data(), b.exterior_sine.data(), k);
     put(edges, lane, edge_constants(c, b, pair, k));
-    put(strengths, lane, strength_constants(c, pair, k));
+    put(strengths, lane, strength_constants(c, k));
   }
   const auto of = columns_from<StrengthConstants<const double*>>(&strengths[0]);
   bool bonds = false;
@@ -203,6 +207,27 @@ void load_chunk_constants(FaceTiles& t, const FaceSet& c, const BlockSet& b, std
   TileConstants& constants = t.constants[tile];
   t.edge_set[q] = set_of(constants.edges, t.edge_set[q], edges, edge_columns);
   t.strength_set[q] = set_of(constants.strengths, t.strength_set[q], strengths, strength_columns);
+}
+
+void load_strengths(FaceTiles& t, const FaceSet& c, std::size_t tile, std::size_t q,
+                    unsigned changed) {
+  alignas(64) double strengths[strength_columns * lanes];
+  std::copy_n(t.strengths_of(tile, q), std::size(strengths), strengths);
+  for (std::size_t lane = 0; lane < lanes; ++lane) {
+    if ((changed >> lane & 1u) == 0) continue;
+    const Id k = t.face[q * lanes + lane];
+    put(strengths, lane, strength_constants(c, k));
+    load_sums(t, c, q * lanes + lane, k);
+    if (c.locked_closure_a[k] != 0.0 || c.locked_closure_b[k] != 0.0)
+      t.tiles[tile].takes_then = true;
+  }
+  ConstantSets& sets = t.constants[tile].strengths;
+  Id& set = t.strength_set[q];
+  if (sets.users[set] == 1) {
+    std::copy_n(strengths, std::size(strengths), sets.numbers.data() + set * std::size(strengths));
+  } else {
+    set = set_of(sets, set, strengths, strength_columns);
+  }
 }
 
 void load_constants(FaceTiles& t, const FaceSet& c, const BlockSet& b, std::size_t tile) {

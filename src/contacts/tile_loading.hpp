@@ -18,6 +18,11 @@ void load_decisions(FaceTiles& tiles, const FaceSet& faces, const BlockSet& bloc
 void load_chunk_constants(FaceTiles& tiles, const FaceSet& faces, const BlockSet& blocks,
                           std::size_t tile, std::size_t chunk, unsigned changed = 0xff);
 
+/// Takes over strength, locked closures and accumulated work of these faces of a chunk: lanes with
+/// a bit in `changed`.
+void load_strengths(FaceTiles& tiles, const FaceSet& faces, std::size_t tile, std::size_t chunk,
+                    unsigned changed);
+
 /// The constants of all chunks of a tile, for which it has been laid out.
 void load_constants(FaceTiles& tiles, const FaceSet& faces, const BlockSet& blocks,
                     std::size_t tile);

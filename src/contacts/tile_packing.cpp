@@ -59,8 +59,7 @@ void swap_faces(FaceTiles& t, std::size_t a, std::size_t b) {
       }
       swap_numbers<FaceWorkColumns<double>>(numbers, which, a, b);
     }
-    swap_numbers<FaceMemoryColumns<double>>(numbers, which, a, b);
-    if (t.dashpots) swap_numbers<DashpotMemoryColumns<double>>(numbers, which, a, b);
+    for_memory(t, [&]<class Fields>() { swap_numbers<Fields>(numbers, which, a, b); });
     swap_bits(t.bits[which], every, a, b);
     swap_bits(t.found[which], every, a, b);
   }

@@ -55,15 +55,14 @@ void copy_step(const Renewal& r, int which, std::size_t place, std::size_t from)
   if (lane_bits::test(r.old.found[which][p], lane_bits::works, from % lanes))
     r.next.idle[which][q] = 0;
   if (!r.next.holds(q)) return;
-  const auto memory = get<FaceMemoryColumns<double>>(r.old, which, from);
-  put(r.next, which, place, memory);
-  if (r.next.dashpots)
-    put(r.next, which, place, get<DashpotMemoryColumns<double>>(r.old, which, from));
+  for_memory(r.next,
+             [&]<class Fields>() { put(r.next, which, place, get<Fields>(r.old, which, from)); });
   const bool kept = r.old.fresh[which][p] != 0;
   if (kept) begin_work(r.next, which, q);
   if (r.next.fresh[which][q] != 0) {
     put(r.next, which, place,
-        kept ? get<FaceWorkColumns<double>>(r.old, which, from) : no_work(memory));
+        kept ? get<FaceWorkColumns<double>>(r.old, which, from)
+             : no_work(get<FaceMemoryColumns<double>>(r.old, which, from)));
   }
 }
 

@@ -37,6 +37,13 @@ FaceFields<double> remembered(const FaceTiles& t, int which, std::size_t k) {
   m.shear_b = work.shear_b;
   m.friction_work = work.friction_work;
   m.transfer = work.transfer;
+  if (t.slip_laws) {
+    const auto pressure = get<PressureColumns<double>>(t, which, place);
+    m.normal_a = pressure.normal_a;
+    m.normal_b = pressure.normal_b;
+    m.length = pressure.length;
+    m.cohesive = pressure.cohesive;
+  }
   if (!t.dashpots) return m;
   const auto dashpots = get<DashpotMemoryColumns<double>>(t, which, place);
   m.damping_a = dashpots.damping_a;

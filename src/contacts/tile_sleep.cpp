@@ -205,7 +205,7 @@ void make_room(FaceTiles& t, const SweepScene& scene, std::size_t tile, std::siz
   TileNumbers& numbers = t.numbers[tile];
   const std::size_t had = numbers.chunks;
   if (chunks <= had) return;
-  numbers.resize(chunks, t.dashpots);
+  numbers.resize(chunks, t);
   const std::size_t first = t.tiles[tile].first_chunk;
   for (std::size_t place = (first + had) * lanes; place < (first + chunks) * lanes; ++place) {
     if (t.face[place] != no_id) recall_corners(t, scene.faces, scene.pose, place);
@@ -363,7 +363,7 @@ void let_sleep(FaceTiles& t, const SweepScene& scene, std::size_t tile, SweepScr
         recall_corners(t, scene.faces, scene.pose, place);
     }
   }
-  t.numbers[tile].resize(chunks, t.dashpots);
+  t.numbers[tile].resize(chunks, t);
   set_allowed(t, tile, of.sleep);
   constexpr std::size_t few = 8;  // one chunk in so many
   of.sleep.calm = few * changed <= touched.size();

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "contacts/chunk_loops.hpp"
+#include "contacts/tile_columns.hpp"
 #include "contacts/tile_edges.hpp"
 #include "contacts/tile_sleep.hpp"
 
@@ -26,10 +27,11 @@ struct ChunkStand {
   Records e, f;
   alignas(64) double columns[stand_columns * lanes];
   alignas(64) double overlaps[overlap_columns * lanes];
+  alignas(64) double pressures[pressure_columns * lanes];
   bool overlaps_known;
 };
 ChunkView view_of(const SweepTables& t, std::size_t chunk, ChunkStand& stand) {
-  ChunkView view = view_of(t, chunk, stand.columns, stand.overlaps);
+  ChunkView view = view_of(t, chunk, stand.columns, stand.overlaps, stand.pressures);
   view.e = &stand.e;
   view.f = &stand.f;
   return view;
@@ -60,7 +62,7 @@ ChunkFound evaluate_chunk(FaceTiles& t, const ChunkView& view, std::size_t q, bo
   Formulas use = t.bonds[q] != 0   ? Formulas::all
                  : t.plain[q] != 0 ? Formulas::plain
                                    : Formulas::unbonded;
-  Needs needs = t.dashpots ? Needs::dashpots : worked ? Needs::work : Needs::forces;
+  Needs needs = t.dashpots ? Needs::dashpots : worked || t.slip_laws ? Needs::work : Needs::forces;
   for (;;) {
     if (use != Formulas::plain && !overlaps_known) overlap_edges(view);
     const ChunkFound found = evaluate_by(use, needs, view);
@@ -139,6 +141,9 @@ ChunkFound evaluate_standing(FaceTiles& t, ChunkView& view, const ChunkEdges& ed
   }
   const ChunkFound found = evaluate_chunk(t, view, q, overlaps_known);
   keep(t, q, found);
+  if (t.slip_laws)
+    std::copy_n(view.pressures, pressure_columns * lanes,
+                chunk_of<PressureColumns<double>>(t, t.now, q));
   return found;
 }
 

@@ -10,6 +10,7 @@
 #include "contacts/activity.hpp"
 #include "contacts/face_bonds.hpp"
 #include "contacts/find_faces.hpp"
+#include "contacts/tile_decisions.hpp"
 #include "contacts/tile_loading.hpp"
 #include "contacts/tile_renewal.hpp"
 #include "contacts/tile_rows.hpp"
@@ -273,8 +274,7 @@ class FacesInTiles : public FaceAccess {
 
 bool steps_in_tiles(const Simulation& sim) {
   const TiledFaces& own = sim.leapfrog.tiled;
-  const FaceSet& c = sim.motion.contacts;
-  return own.use && !sim.motion.laws.any_changes && !c.gluing;
+  return own.use;
 }
 
 namespace {
@@ -310,8 +310,13 @@ void load_tiles(Simulation& sim) {
 
 void place_in_tiles(Simulation& sim) {
   TiledFaces& own = sim.leapfrog.tiled;
-  next_step(sim.motion.contacts, own.tiles);
-  if (!own.ahead) sim.motion.contacts.drop_states();
+  Motion& motion = sim.motion;
+  FaceSet& c = motion.contacts;
+  const BlockSet& b = sim.scene->blocks;
+  if (c.gluing) glue_pressed(c, own.tiles, b, motion.pose);
+  next_step(c, own.tiles);
+  if (motion.laws.any_changes) update_joint_laws(c, own.tiles, b, motion.pose, motion.laws);
+  if (!own.ahead) c.drop_states();
   own.ahead = true;
   std::vector<std::size_t> weights;
   for (const SweepResult& last : own.results)

@@ -295,6 +295,44 @@ TEST(TileStep, GoesOnAsWithRowsWithBonds) {
   text.replace(text.find("[solver]"), 0, bonds);
   EXPECT_GT(compare_with_rows(text, 20000), 100u);
 }
+/// Joints whose strength and opening depend on slip, also where faces open and close again.
+TEST(TileStep, GoesOnAsWithRowsWithLawsThatDependOnSlip) {
+  for (const char* law :
+       {"type = \"slip-weakening\"\nfriction_angle = 30\ncohesion = 2e4\nslip_distance = 1e-3\n"
+        "residual = { friction_angle = 15 }\ndilation_angle = 5\n",
+        "friction_angle = 20\ndilation_angle = 8\nslip_distance = 2e-2\n",
+        "type = \"barton-bandis\"\njrc = 9\njcs = 8e7\nresidual_angle = 25\n"}) {
+    for (std::string text : {hit_wall, falling_heap()}) {
+      const std::string friction = "friction_angle = 20\n";
+      text.replace(text.find(friction), friction.size(), law);
+      EXPECT_GT(compare_with_rows(text, 10000), 20u) << law;
+    }
+  }
+}
+/// Faces that come into contact while joints are glued are glued, too.
+TEST(TileStep, GoesOnAsWithRowsWhileJointsAreGlued) {
+  std::string text = rock +
+                     "[contact]\njoint = \"j\"\n[[block]]\nfixed = true\n"
+                     "polygon = [[-9,-1],[9,-1],[9,0],[-9,0]]\n";
+  for (int n = 0; n < 12; ++n) {
+    const double x = 1.1 * (n % 4) - 2.0, y = 1e-4 + 0.5001 * (n / 4);
+    const auto at = [&](double dx, double dy) {
+      return "[" + std::to_string(x + dx) + "," + std::to_string(y + dy) + "]";
+    };
+    text += "[[block]]\npolygon = [" + at(0, 0) + "," + at(1, 0) + "," + at(1, 0.5) + "," +
+            at(0, 0.5) + "]\n";
+  }
+  std::size_t glued = 0;
+  compare_with_rows(text, 6000, [&](Simulation& sim, int n) {
+    if (n == 100) glue_joints(sim, true);
+    if (n == 5000) {
+      const FaceSet& c = faces_to_change(sim);
+      for (std::size_t k = 0; k < c.size(); ++k) glued += c.glued[k] > 0.0 ? 1 : 0;
+      glue_joints(sim, false);
+    }
+  });
+  EXPECT_GT(glued, 4u);
+}
 
 }  // namespace
 }  // namespace edda::tile_step_test
