@@ -45,20 +45,26 @@ double normal_energy(const FaceSet& c, const BlockSet& b, const Pose& pose, std:
   return normal_energy_to(face_at(c, b, pose.x, pose.y, k), c, b, pose, k);
 }
 
-double face_energy(const FaceSet& c, const BlockSet& b, const Pose& pose, std::size_t k) {
-  const FaceMemory& m = c.before;
-  const bool slips = m.spring[k] > 0.0 && (m.slip_a[k] != 0.0 || m.slip_b[k] != 0.0);
-  const bool open = c.now.energy[k] == 0.0 && !(c.carries_tension[k] > 0.0);
+double face_energy(const FaceSet& c, const BlockSet& b, const Pose& pose, const SpringsOfFace& old,
+                   std::size_t k) {
+  const FaceEnds had = old.slip;
+  const bool slips = old.spring > 0.0 && (had.a != 0.0 || had.b != 0.0);
+  const bool open = !old.stores && !(c.carries_tension[k] > 0.0);
   if (open && !slips) return 0.0;
   const Face face = face_at(c, b, pose.x, pose.y, k);
   double shear = 0.0;
   if (slips) {
     const FaceEnds slip =
         slip_of(c, face, face_points(c, pose.x, pose.y, k), face_points(c, pose.x1, pose.y1, k), k);
-    shear =
-        m.spring[k] * (m.slip_a[k] * (m.slip_a[k] + slip.a) + m.slip_b[k] * (m.slip_b[k] + slip.b));
+    shear = old.spring * (had.a * (had.a + slip.a) + had.b * (had.b + slip.b));
   }
   return normal_energy_to(face, c, b, pose, k) + 0.5 * shear;
+}
+
+double face_energy(const FaceSet& c, const BlockSet& b, const Pose& pose, std::size_t k) {
+  const FaceMemory& m = c.before;
+  return face_energy(c, b, pose, {m.spring[k], {m.slip_a[k], m.slip_b[k]}, c.now.energy[k] > 0.0},
+                     k);
 }
 
 }  // namespace edda

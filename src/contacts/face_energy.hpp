@@ -15,7 +15,16 @@ double work_of(const CornerForces& force, const FacePoints& to, const FacePoints
 double stored_between(const Face& face0, const FacePoints& at0, const Face& face1,
                       const FacePoints& at1, bool carries_tension);
 
+/// What the energy of a face follows from beside its corners: its shear springs at n - 1 (stiffness
+/// of each end, N/m; slip of the ends, m), and whether it stores energy at n.
+struct SpringsOfFace {
+  double spring;
+  FaceEnds slip;
+  bool stores;
+};
 /// Energy that face k stores between steps n - 1 and n, normal and shear, J.
+double face_energy(const FaceSet& faces, const BlockSet& blocks, const Pose& pose,
+                   const SpringsOfFace& springs, std::size_t k);
 double face_energy(const FaceSet& faces, const BlockSet& blocks, const Pose& pose, std::size_t k);
 
 /// The part of face_energy() that is due to the normal pressure, J.

@@ -9,6 +9,7 @@
 #include "forces/elastic.hpp"
 #include "observe/overstress.hpp"
 #include "step/contact_pairs.hpp"
+#include "step/faces_now.hpp"
 #include "step/ground_motion.hpp"
 
 namespace edda {
@@ -169,7 +170,7 @@ Picture picture_of(const Simulation& sim, const Instant& at) {
   for (std::size_t i = 0; i < sim.scene->blocks.size(); ++i) {
     if (at.state.alive[i]) p.blocks.push_back(block_record(sim, at.state, i));
   }
-  const FaceSet& f = sim.motion.contacts;
+  const FaceSet f = faces_at_n(sim);
   for (std::size_t k = 0; k < f.size(); ++k) {
     if (is_closed(f, k) || f.opened[k] > 0.0) p.contacts.push_back(face_record(sim, f, k));
   }

@@ -7,7 +7,6 @@
 #include <cmath>
 #include <new>
 
-#include "contacts/face_reading.hpp"
 #include "model/stage_names.hpp"
 #include "observe/motion.hpp"
 #include "observe/summary.hpp"
@@ -60,8 +59,7 @@ double reaction_error(const Simulation& sim, const Instant& at) {
   }
   // Without weight, or where loads cancel, the contact forces are the only reference.
   double pressed = 0.0;
-  const FaceSet& f = sim.motion.contacts;
-  for (std::size_t k = 0; k < f.size(); ++k) pressed += std::abs(normal_force(f, k));
+  for (const double force : normal_forces_now(sim)) pressed += std::abs(force);
   if (weight < 1e-6 * pressed) weight = pressed;
   return weight > 0.0 ? norm(sum) / weight : 0.0;
 }
@@ -268,7 +266,6 @@ const Instant& Driver::look() {
 
 bool Driver::record(const Event& event) {
   const auto start = Clock::now();
-  update_face_rows(sim_);
   count_revolutions(sim_, angle_);
   measure_overlaps();
   outcome_.overlap_now = deepest_now(sim_, 0.0).ratio;

@@ -10,6 +10,7 @@
 #include "contacts/face_reading.hpp"
 #include "observe/observe.hpp"
 #include "results/columns.hpp"
+#include "step/faces_now.hpp"
 #include "step/labels.hpp"
 
 namespace edda {
@@ -76,7 +77,7 @@ StageRecord stage_record(const Simulation& sim, const EnergyBalance& energy, dou
   r.energy = energy;
   r.broken = sim.motion.contacts.broken;
   r.yielded = yielded_bolts(sim.attached.bolts, sim.motion.state);
-  const FaceSet& f = sim.motion.contacts;
+  const FaceSet f = faces_at_n(sim);
   for (std::size_t k = 0; k < f.size(); ++k) {
     const bool closed = is_closed(f, k);
     r.open += f.opened[k] > 0.0 && !closed;

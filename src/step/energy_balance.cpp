@@ -67,10 +67,10 @@ EnergyBalance energy_balance(const Simulation& sim) {
   const auto over_free = [&](auto&& term) {
     return ordered_sum(b.size(), [&](std::size_t i) { return is_free(b, s, i) ? term(i) : 0.0; });
   };
-  const auto over_faces = [&](const ChunkColumn& taken) {
-    return ordered_sum(c.size(), [&](std::size_t k) { return taken[k]; });
+  const auto over_faces = [&](double FaceWork::*taken) {
+    return ordered_sum(c.size(), [&](std::size_t k) { return work_now(sim, k).*taken; });
   };
-  const auto in_faces = [&](std::size_t k) { return face_energy(c, b, sim.motion.pose, k); };
+  const auto in_faces = [&](std::size_t k) { return face_energy_now(sim, k); };
   const std::vector<double>& damped = accounts.damping_work.joules;
   EnergyBalance l;
   l.kinetic = over_free([&](std::size_t i) { return kinetic_energy(sim.motion.masses, b, s, i); });
@@ -83,11 +83,12 @@ EnergyBalance energy_balance(const Simulation& sim) {
   });
   l.contact =
       ordered_sum(c.size(), in_faces) + boundary_energy(sim.attached.springs, sim.motion.pose);
-  l.friction = c.removed_friction + over_faces(c.friction_work);
-  l.fracture = c.removed_fracture + over_faces(c.fracture_work);
-  l.damping = c.removed_damping + over_faces(c.damping_work) + over_faces(c.now.damping_due) +
+  l.friction = c.removed_friction + over_faces(&FaceWork::friction);
+  l.fracture = c.removed_fracture + over_faces(&FaceWork::fracture);
+  l.damping = c.removed_damping + over_faces(&FaceWork::damping) +
+              over_faces(&FaceWork::damping_due) +
               ordered_sum(damped.size(), [&](std::size_t i) { return damped[i]; });
-  l.transfer = c.removed_transfer + over_faces(c.transfer);
+  l.transfer = c.removed_transfer + over_faces(&FaceWork::transfer);
   l.step_change = -accounts.step_change_energy;
   l.external = accounts.external_work;
   l.contact += bolt_energy(bolts) + points.energy;
@@ -104,7 +105,6 @@ double energy_scale(const Simulation& sim, const EnergyBalance& l) {
 
 EnergyBalance account_energy(Simulation& sim) {
   Accounts& accounts = sim.accounts;
-  update_face_rows(sim);
   EnergyBalance l = energy_balance(sim);
   if (!accounts.start_energy) accounts.start_energy = l.balance();
   accounts.largest_energy = energy_scale(sim, l);
@@ -112,8 +112,7 @@ EnergyBalance account_energy(Simulation& sim) {
   return l;
 }
 
-double total_energy(Simulation& sim) {
-  update_face_rows(sim);
+double total_energy(const Simulation& sim) {
   return energy_balance(sim).balance();
 }
 

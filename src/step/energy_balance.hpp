@@ -37,12 +37,12 @@ struct EnergyBalance {
 double rounding_energy(const BlockSet& blocks, const FaceSet& contacts, Vec2 gravity);
 
 /// All terms but the error, from positions at step n and velocities at the instant at which the
-/// method has them. The rows of the faces must be up to date (step/tile_step.hpp).
+/// method has them.
 EnergyBalance energy_balance(const Simulation& sim);
-/// The same with the error, and up to date; updates Accounts::start_energy and largest_energy.
+/// The same with the error; updates Accounts::start_energy and largest_energy.
 EnergyBalance account_energy(Simulation& sim);
-/// EnergyBalance::balance(), up to date, J.
-double total_energy(Simulation& sim);
+/// EnergyBalance::balance(), J.
+double total_energy(const Simulation& sim);
 /// Reference for the error: the largest scale so far, not less than rounding_energy(), J.
 double energy_scale(const Simulation& sim, const EnergyBalance& energy);
 

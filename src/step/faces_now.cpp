@@ -6,8 +6,11 @@
 #include "base/parallel.hpp"
 #include "contacts/activity.hpp"
 #include "contacts/evaluate_faces.hpp"
+#include "contacts/face_energy.hpp"
 #include "contacts/face_reading.hpp"
 #include "contacts/tile_columns.hpp"
+#include "contacts/tile_rows.hpp"
+#include "step/contact_search.hpp"
 #include "step/simulation.hpp"
 
 namespace edda {
@@ -18,15 +21,13 @@ Face face_now(const Simulation& sim, std::size_t k) {
   return face_at(sim.motion.contacts, sim.scene->blocks, pose.x, pose.y, k);
 }
 
-/// Force of the dashpots across face k, N.
-double pressure_of_dashpots(const Simulation& sim, std::size_t k) {
-  const FaceMemory& m = sim.motion.contacts.now;
-  if (!sim.leapfrog.tiled.ahead) return m.damping_a[k] + m.damping_b[k];
+/// Forces of the dashpots across the ends of face k, which is in tiles, N.
+FaceEnds dashpots_across(const Simulation& sim, std::size_t k) {
   const FaceTiles& t = sim.leapfrog.tiled.tiles;
   const Id place = t.place[k][0];
-  if (!t.dashpots || place == no_id) return 0.0;
+  if (!t.dashpots || place == no_id) return {};
   const auto memory = get<DashpotMemoryColumns<double>>(t, t.now, place);
-  return memory.damping_a + memory.damping_b;
+  return {memory.damping_a, memory.damping_b};
 }
 
 /// Rows whose ratio is larger than `above`, where they are up to date.
@@ -63,6 +64,38 @@ std::vector<Id> faces_that_may_exceed(const Simulation& sim, double above) {
 
 }  // namespace
 
+FaceSet faces_at_n(const Simulation& sim) {
+  FaceSet faces = sim.motion.contacts;
+  const TiledFaces& tiled = sim.leapfrog.tiled;
+  if (tiled.ahead) unload_faces(faces, tiled.tiles, face_scene(sim), sim.control.step_before);
+  return faces;
+}
+
+double face_energy_now(const Simulation& sim, std::size_t k) {
+  const FaceSet& c = sim.motion.contacts;
+  const FaceTiles& t = sim.leapfrog.tiled.tiles;
+  const BlockSet& b = sim.scene->blocks;
+  if (!sim.leapfrog.tiled.ahead) return face_energy(c, b, sim.motion.pose, k);
+  if (t.place[k][0] == no_id) return 0.0;
+  const auto old = get<FaceMemoryColumns<double>>(t, 1 - t.now, t.place[k][0]);
+  return face_energy(c, b, sim.motion.pose,
+                     {old.spring, {old.slip_a, old.slip_b}, t.remembers(lane_bits::stored, k)}, k);
+}
+
+FaceWork work_now(const Simulation& sim, std::size_t k) {
+  const FaceSet& c = sim.motion.contacts;
+  const FaceTiles& t = sim.leapfrog.tiled.tiles;
+  if (!sim.leapfrog.tiled.ahead)
+    return {c.friction_work[k], c.damping_work[k], c.fracture_work[k], c.transfer[k],
+            c.now.damping_due[k]};
+  const Id place = t.place[k][0];
+  if (place == no_id) return {0.0, 0.0, c.fracture_work[k], 0.0, 0.0};
+  const auto sums = get<FaceSumColumns<double>>(t.sums, place);
+  const bool fresh = t.fresh[t.now][place / lanes] != 0;
+  return {sums.friction_work, sums.damping_work, c.fracture_work[k], sums.transfer,
+          fresh ? get<FaceWorkColumns<double>>(t, t.now, place).damping_due : 0.0};
+}
+
 bool is_closed_now(const Simulation& sim, std::size_t k) {
   const FaceSet& c = sim.motion.contacts;
   if (!sim.leapfrog.tiled.ahead) return is_closed(c, k);
@@ -78,7 +111,8 @@ NormalNow normal_now(const Simulation& sim, std::size_t k) {
   if (!sim.leapfrog.tiled.ahead)
     return {normal_force(c, k), c.stiffness[k] * c.now.length[k] * c.now.gate[k]};
   const Face face = face_now(sim, k);
-  return {face.normal.a + face.normal.b + pressure_of_dashpots(sim, k),
+  const FaceEnds dashpots = dashpots_across(sim, k);
+  return {face.normal.a + face.normal.b + dashpots.a + dashpots.b,
           c.stiffness[k] * std::max(face.length, 0.0) * face.gate};
 }
 

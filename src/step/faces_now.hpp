@@ -7,10 +7,24 @@
 #include <vector>
 
 #include "base/vec2.hpp"
+#include "contacts/face_set.hpp"
 
 namespace edda {
 
 struct Simulation;
+
+/// The faces with their states at n, as tables and pictures show them.
+FaceSet faces_at_n(const Simulation& sim);
+
+/// Energy that face k stores between steps n - 1 and n, J.
+double face_energy_now(const Simulation& sim, std::size_t k);
+
+/// Work of face k accumulated until step n - 1, and that of its dashpots at n - 1 which they do
+/// last, J.
+struct FaceWork {
+  double friction, damping, fracture, transfer, damping_due;
+};
+FaceWork work_now(const Simulation& sim, std::size_t k);
 
 /// As is_closed() of contacts/face_reading.hpp.
 bool is_closed_now(const Simulation& sim, std::size_t k);
