@@ -24,7 +24,20 @@ inline std::pair<Id, Id> blocks_of_face(const BlockSet& b, const FaceSet& f, std
   return std::minmax({block_of_edge(b, f, k), block_of_facing(b, f, k)});
 }
 
-/// Whether face k carries force, or is bonded and would carry it at any displacement.
+/// Face k at step n, a value: its state and the forces on its corners (N), with what is decided of
+/// it in `of`.
+struct FaceRow {
+  const FaceSet& of;
+  std::size_t k;
+  FaceFields<double> state;
+  CornerForces force;
+  bool opened, slipped;  ///< it has, after having been closed; it has at least once
+};
+
+/// Whether it carries force, or is bonded and would carry it at any displacement.
+inline bool is_closed(const FaceRow& r) {
+  return r.state.energy > 0.0 || (r.of.bonded[r.k] > 0.0 && r.state.gate > 0.0);
+}
 inline bool is_closed(const FaceSet& f, std::size_t k) {
   return f.now.energy[k] > 0.0 || (f.bonded[k] > 0.0 && f.now.gate[k] > 0.0);
 }
@@ -33,17 +46,20 @@ inline bool is_closed(const FaceSet& f, std::size_t k) {
 inline double drawn_closure(const FaceSet& f, FaceEnds closure, std::size_t k) {
   return std::max(closure.a - f.locked_closure_a[k], closure.b - f.locked_closure_b[k]);
 }
+inline double closure_of(const FaceRow& r) {
+  return drawn_closure(r.of, {r.state.closure_a, r.state.closure_b}, r.k);
+}
 inline double closure_of(const FaceSet& f, std::size_t k) {
   return drawn_closure(f, {f.now.closure_a[k], f.now.closure_b[k]}, k);
 }
 
 /// Whether the face is closed, or its edges touch within this gap, m.
-inline bool meets_within(const FaceSet& f, double gap, std::size_t k) {
-  return is_closed(f, k) || (f.acts[k] > 0.0 && f.now.gate[k] > 0.0 && closure_of(f, k) >= -gap);
+inline bool meets_within(const FaceRow& r, double gap) {
+  return is_closed(r) || (r.of.acts[r.k] > 0.0 && r.state.gate > 0.0 && closure_of(r) >= -gap);
 }
 /// The same within rounding, corners that touch as drawn included (closed_by()).
-inline bool meets(const FaceSet& f, std::size_t k) {
-  return meets_within(f, f.noise + 2.0 * least_closed * f.passing[k], k);
+inline bool meets(const FaceRow& r) {
+  return meets_within(r, r.of.noise + 2.0 * least_closed * r.of.passing[r.k]);
 }
 
 /// Inscribed radius of the narrower of the two blocks of face k, m.
@@ -53,38 +69,32 @@ inline double narrower_radius(const BlockSet& b, const FaceSet& f, std::size_t k
 
 /// Normal force, N, positive in compression; shear force, N, positive where it drives the block of
 /// `facing` along the edge.
-inline double normal_force(const FaceSet& f, std::size_t k) {
-  const FaceMemory& m = f.now;
-  return m.normal_a[k] + m.normal_b[k] + m.damping_a[k] + m.damping_b[k];
+inline double normal_force(const FaceRow& r) {
+  const FaceFields<double>& m = r.state;
+  return m.normal_a + m.normal_b + m.damping_a + m.damping_b;
 }
-inline double shear_force(const FaceSet& f, std::size_t k) {
-  const FaceMemory& m = f.now;
-  return m.shear_a[k] + m.shear_b[k] + m.shear_damping_a[k] + m.shear_damping_b[k];
+inline double shear_force(const FaceRow& r) {
+  const FaceFields<double>& m = r.state;
+  return m.shear_a + m.shear_b + m.shear_damping_a + m.shear_damping_b;
 }
 
 /// Shear strength c L + N tan(phi), N (theory, section 5.1), of bonds as they hold at present.
-inline double shear_strength(const FaceSet& f, std::size_t k) {
-  const double held = f.bonded[k] > 0.0 ? f.bond_strength : 1.0;
-  return coulomb_limit(held * f.cohesion[k] * f.now.cohesive[k], f.friction[k], normal_force(f, k));
+inline double shear_strength(const FaceRow& r) {
+  const FaceSet& f = r.of;
+  const double held = f.bonded[r.k] > 0.0 ? f.bond_strength : 1.0;
+  return coulomb_limit(held * f.cohesion[r.k] * r.state.cohesive, f.friction[r.k], normal_force(r));
 }
 
 /// Whether Coulomb's limit has cut the shear force of one of its ends in the last step.
-inline bool slides(const FaceSet& f, std::size_t k) {
-  const FaceMemory& m = f.now;
-  return is_closed(f, k) && f.bonded[k] == 0.0 &&
-         (is_cut(m.trial_a[k], m.slip_a[k]) || is_cut(m.trial_b[k], m.slip_b[k]));
-}
-
-/// Forces of face k on its corners, N.
-inline CornerForces corner_forces(const FaceSet& f, std::size_t k) {
-  const double* const on = &f.force[8 * k];
-  return {{on[0], on[1]}, {on[2], on[3]}, {on[4], on[5]}, {on[6], on[7]}};
+inline bool slides(const FaceRow& r) {
+  const FaceFields<double>& m = r.state;
+  return is_closed(r) && r.of.bonded[r.k] == 0.0 &&
+         (is_cut(m.trial_a, m.slip_a) || is_cut(m.trial_b, m.slip_b));
 }
 
 /// Force on the block of `facing`, N; the force on the block of `edge` is opposite.
-inline Vec2 force_on_facing(const FaceSet& f, std::size_t k) {
-  const CornerForces on = corner_forces(f, k);
-  return on.q1 + on.q2;
+inline Vec2 force_on_facing(const FaceRow& r) {
+  return r.force.q1 + r.force.q2;
 }
 
 /// Ends of the overlap on `edge`; along t they are L apart. Where the edges have passed each other
@@ -92,14 +102,19 @@ inline Vec2 force_on_facing(const FaceSet& f, std::size_t k) {
 struct FaceSpan {
   Vec2 a, b;
 };
-inline FaceSpan span_of(const FaceSet& f, const Pose& pose, std::size_t k) {
-  const Vec2 p1{pose.x[f.edge[k]], pose.y[f.edge[k]]},
-      p2{pose.x[f.edge_end[k]], pose.y[f.edge_end[k]]};
+inline FaceSpan span_of(const FaceRow& r, const Pose& pose) {
+  const FaceSet& f = r.of;
+  const Vec2 p1{pose.x[f.edge[r.k]], pose.y[f.edge[r.k]]},
+      p2{pose.x[f.edge_end[r.k]], pose.y[f.edge_end[r.k]]};
   const auto at = [&](double xi) { return (1.0 - xi) * p1 + xi * p2; };
-  const double xi_a = f.now.xi_a[k], xi_b = f.now.xi_b[k];
-  if (f.now.length[k] > 0.0) return {at(xi_a), at(xi_b)};
+  const double xi_a = r.state.xi_a, xi_b = r.state.xi_b;
+  if (r.state.length > 0.0) return {at(xi_a), at(xi_b)};
   const Vec2 middle = at(0.5 * (xi_a + xi_b));
   return {middle, middle};
+}
+inline Vec2 middle_of(const FaceRow& r, const Pose& pose) {
+  const FaceSpan span = span_of(r, pose);
+  return 0.5 * (span.a + span.b);
 }
 /// The corner, of `edge` or of `facing`, that bounds the overlap at the end of larger closure; the
 /// ends lie at the fractions xi and eta of the edges with these corners.
@@ -110,14 +125,43 @@ inline Vec2 deeper_end(const FacePoints& p, FaceEnds closure, FaceEnds of_edge,
   const bool of_first = xi == 0.0 || xi == 1.0;
   return of_first ? (1.0 - xi) * p.p1 + xi * p.p2 : eta * p.q1 + (1.0 - eta) * p.q2;
 }
-inline Vec2 deeper_end(const FaceSet& f, const Pose& pose, std::size_t k) {
-  const FaceMemory& m = f.now;
-  return deeper_end(face_points(f, pose.x, pose.y, k), {m.closure_a[k], m.closure_b[k]},
-                    {m.xi_a[k], m.xi_b[k]}, {m.eta_a[k], m.eta_b[k]});
+
+// The same of face k of a list whose states are at n.
+inline CornerForces corner_forces(const FaceSet& f, std::size_t k) {
+  const double* const on = &f.force[8 * k];
+  return {{on[0], on[1]}, {on[2], on[3]}, {on[4], on[5]}, {on[6], on[7]}};
+}
+inline FaceRow face_row(const FaceSet& f, std::size_t k) {
+  return {f, k, row_of(f.now, k), corner_forces(f, k), f.opened[k] > 0.0, f.slipped[k] > 0.0};
+}
+inline bool meets_within(const FaceSet& f, double gap, std::size_t k) {
+  return meets_within(face_row(f, k), gap);
+}
+inline double normal_force(const FaceSet& f, std::size_t k) {
+  return normal_force(face_row(f, k));
+}
+inline double shear_force(const FaceSet& f, std::size_t k) {
+  return shear_force(face_row(f, k));
+}
+inline double shear_strength(const FaceSet& f, std::size_t k) {
+  return shear_strength(face_row(f, k));
+}
+inline bool slides(const FaceSet& f, std::size_t k) {
+  return slides(face_row(f, k));
+}
+inline Vec2 force_on_facing(const FaceSet& f, std::size_t k) {
+  return force_on_facing(face_row(f, k));
+}
+inline FaceSpan span_of(const FaceSet& f, const Pose& pose, std::size_t k) {
+  return span_of(face_row(f, k), pose);
 }
 inline Vec2 middle_of(const FaceSet& f, const Pose& pose, std::size_t k) {
-  const FaceSpan span = span_of(f, pose, k);
-  return 0.5 * (span.a + span.b);
+  return middle_of(face_row(f, k), pose);
+}
+inline Vec2 deeper_end(const FaceSet& f, const Pose& pose, std::size_t k) {
+  const FaceFields<double> m = row_of(f.now, k);
+  return deeper_end(face_points(f, pose.x, pose.y, k), {m.closure_a, m.closure_b}, {m.xi_a, m.xi_b},
+                    {m.eta_a, m.eta_b});
 }
 
 }  // namespace edda

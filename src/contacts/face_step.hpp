@@ -287,6 +287,21 @@ EDDA_INLINE double half_work(FaceEnds across, FaceEnds along, const EndMotion& m
                 along.b * moved.slip.b);
 }
 
+/// Forces of a face on its corners, N: its pressure, shear and dashpots, and where its ends lie at
+/// their bounds what these push (ends_at_bounds(); `books`).
+template <bool dashpots, bool books>
+EDDA_INLINE CornerForces force_of(const Face& face, const EdgeGeometry& stands, FaceEnds shear,
+                                  FaceEnds damping, FaceEnds shear_damping, FaceEnds bounds) {
+  FrameForces on = face.pressure;
+  if constexpr (dashpots) {
+    add_ends(on, face, damping, {shear.a + shear_damping.a, shear.b + shear_damping.b});
+  } else {
+    add_shear(on, face, shear);
+  }
+  if constexpr (books) push_bounds(on, face.of_first, bounds);
+  return on_corners(on, stands.corners(), face);
+}
+
 /// What has changed in the step (FaceStep).
 EDDA_INLINE void mark_changes(FaceStep& s, const FaceInputs& in, const EdgeGeometry& stands,
                               const Face& face) {
@@ -354,15 +369,7 @@ EDDA_INLINE FaceStep step_of_face(const FaceInputs& in, const EdgeGeometry& stan
     s.damping_work = half_work(s.damping, s.shear_damping, moved);
     s.damping_due = half_work(old.damping, old.shear_damping, moved);
   }
-  FrameForces on = face.pressure;
-  if constexpr (dashpots) {
-    add_ends(on, face, s.damping, {s.shear.a + s.shear_damping.a, s.shear.b + s.shear_damping.b});
-  } else {
-    add_shear(on, face, s.shear);
-  }
-  if constexpr (books) push_bounds(on, face.of_first, bounds);
-  s.force = on_corners(on, stands.corners(), face);
-
+  s.force = force_of<dashpots, books>(face, stands, s.shear, s.damping, s.shear_damping, bounds);
   mark_changes(s, in, stands, face);
   return s;
 }

@@ -246,6 +246,8 @@ struct FaceTiles {
   }
   /// Of those found in the step:
   bool has_found(unsigned of, std::size_t k) const { return bit_of(found[now], of, k); }
+  /// Of any step until n - 1:
+  bool has_ever(unsigned of, std::size_t k) const { return bit_of(ever, of, k); }
   /// Whether anything is remembered of the faces of a chunk (TileNumbers).
   bool holds(std::size_t chunk) const { return numbers[tile_of_chunk[chunk]].holds(chunk); }
   const double* edges_of(std::size_t tile, std::size_t chunk) const {

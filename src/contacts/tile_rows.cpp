@@ -63,17 +63,47 @@ FaceFields<double> remembered(const FaceTiles& t, std::size_t k) {
   return remembered(t, 1 - t.now, k);
 }
 
+FaceRow face_row(const FaceSet& c, const FaceTiles& t, const BlockSet& b, const Pose& pose,
+                 std::size_t k) {
+  FaceRow row{c, k, {}, {}, false, false};
+  const Id place = t.place[k][0];
+  if (place == no_id) return row;
+  row.opened = t.has_ever(lane_bits::opens, k);
+  row.slipped = t.has_ever(lane_bits::slides, k);
+  const FacePair pair = face_pair(c, b.exterior_cosine.data(), b.exterior_sine.data(), k);
+  const FacePoints at = face_points(c, pose.x, pose.y, k);
+  const EdgeGeometry stands = geometry_of_edges(at, pair);
+  const Face face = face_between(stands, pair);
+  // A face that is new in the list has no state until its first step.
+  if (face.gate > 0.0 && !t.remembers(lane_bits::on, k)) return row;
+  FaceFields<double>& m = row.state;
+  m = remembered(t, t.now, k);
+  m.closure_a = face.closure.a;
+  m.closure_b = face.closure.b;
+  m.energy = face.energy;
+  m.normal_a = face.normal.a;
+  m.normal_b = face.normal.b;
+  m.length = larger(face.length, 0.0);
+  m.cohesive = face.cohesive;
+  m.gate = face.gate;
+  m.xi_a = face.xi.a;
+  m.xi_b = face.xi.b;
+  m.eta_a = face.eta.a;
+  m.eta_b = face.eta.b;
+  row.force =
+      force_of<true, true>(face, stands, {m.shear_a, m.shear_b}, {m.damping_a, m.damping_b},
+                           {m.shear_damping_a, m.shear_damping_b}, ends_at_bounds(face, pair));
+  return row;
+}
+
 void recall_work(FaceSet& c, const FaceTiles& t, std::size_t k) {
   const Id place = t.place[k][0];
   const auto sums = get<FaceSumColumns<double>>(t.sums, place);
-  const auto ever = [&](unsigned of) {
-    return lane_bits::test(t.ever[place / lanes], of, place % lanes) ? 1.0 : 0.0;
-  };
   c.friction_work[k] = sums.friction_work;
   c.transfer[k] = sums.transfer;
   c.damping_work[k] = sums.damping_work;
-  c.opened[k] = ever(lane_bits::opens);
-  c.slipped[k] = ever(lane_bits::slides);
+  c.opened[k] = t.has_ever(lane_bits::opens, k) ? 1.0 : 0.0;
+  c.slipped[k] = t.has_ever(lane_bits::slides, k) ? 1.0 : 0.0;
 }
 
 void recall_work(FaceSet& c, const FaceTiles& t) {

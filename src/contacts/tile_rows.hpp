@@ -3,6 +3,7 @@
 #pragma once
 
 #include "contacts/evaluate_faces.hpp"
+#include "contacts/face_reading.hpp"
 #include "contacts/face_tiles.hpp"
 
 namespace edda {
@@ -10,6 +11,10 @@ namespace edda {
 /// What the tiles remember of face k at n - 1, which is all that a step reads of it: 1 stands for
 /// an energy, a gate or a closure above 0.
 FaceFields<double> remembered(const FaceTiles& tiles, std::size_t k);
+
+/// Face k at n, which FaceTiles::now is.
+FaceRow face_row(const FaceSet& faces, const FaceTiles& tiles, const BlockSet& blocks,
+                 const Pose& pose, std::size_t k);
 
 /// Brings the accumulated work of face k up to date.
 void recall_work(FaceSet& faces, const FaceTiles& tiles, std::size_t k);

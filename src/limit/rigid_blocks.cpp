@@ -11,8 +11,8 @@
 #include "attachments/loads.hpp"
 #include "base/gravity.hpp"
 #include "blocks/kinematics.hpp"
-#include "contacts/face_reading.hpp"
 #include "limit/rigid_bolts.hpp"
+#include "step/faces_now.hpp"
 
 namespace edda {
 namespace {
@@ -72,7 +72,7 @@ void add_joint(RigidBlocks& rigid, const Simulation& sim, std::size_t k, double 
   const Vec2 t = frame_of(at, faces.inverse_e[k], faces.inverse_f[k]);
   const Opposed o = common_part(at, t);
   const double size = smaller_size(faces, b, k), close = rigid_gap * size;
-  const bool pressed = faces.now.energy[k] > 0.0;  // however deep it is closed
+  const bool pressed = face_row(sim, k).state.energy > 0.0;  // however deep it is closed
   const auto touches = [&](double there) {
     return there <= gap * size && (pressed || there >= -gap * size);
   };

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "contacts/face_reading.hpp"
 #include "observe/observe.hpp"
+#include "step/faces_now.hpp"
 
 namespace edda {
 namespace {
@@ -49,13 +49,14 @@ Supports supports_of(const Simulation& sim) {
   const FaceSet& f = sim.motion.contacts;
   Supports s{std::vector<std::vector<Wrench>>(b.size()), b.fixed};
   for (std::size_t k = 0; k < f.size(); ++k) {
-    if (!meets(f, k)) continue;
+    const FaceRow row = face_row(sim, k);
+    if (!meets(row)) continue;
     const Id one = block_of_edge(b, f, k), other = block_of_facing(b, f, k);
     const bool glued = f.cohesion[k] > 0.0 || f.glued[k] > 0.0 || f.carries_tension[k] > 0.0;
     if (glued) s.held[one] = s.held[other] = 1;
     const Vec2 t = unit(Vec2{sim.motion.pose.x[f.edge_end[k]] - sim.motion.pose.x[f.edge[k]],
                              sim.motion.pose.y[f.edge_end[k]] - sim.motion.pose.y[f.edge[k]]});
-    const FaceSpan span = span_of(f, sim.motion.pose, k);
+    const FaceSpan span = span_of(row, sim.motion.pose);
     for (const Vec2 at : {span.a, span.b}) {
       for (const double slip : {-1.0, 1.0}) {
         const Vec2 on = outward_normal(t) + slip * f.friction[k] * t;

@@ -7,9 +7,9 @@
 
 #include "attachments/edges_on_line.hpp"
 #include "attachments/initial_forces.hpp"
-#include "contacts/face_reading.hpp"
 #include "model/stage_names.hpp"
 #include "observe/observe.hpp"
+#include "step/faces_now.hpp"
 #include "step/labels.hpp"
 
 namespace edda {
@@ -59,8 +59,8 @@ std::vector<Vec2> resultants(const Simulation& sim) {
     }
   }
   for (std::size_t k = 0; k < c.size(); ++k) {
-    if (!is_closed(c, k)) continue;
-    const Vec2 on = force_on_facing(c, k);
+    if (!is_closed_now(sim, k)) continue;
+    const Vec2 on = force_on_facing(face_row(sim, k));
     sum[block_of_facing(b, c, k)] += on;
     sum[block_of_edge(b, c, k)] -= on;
   }
@@ -75,11 +75,10 @@ std::vector<std::uint8_t> enclosed_blocks(const Simulation& sim) {
   for (std::size_t v = 0; v < b.vertex_count(); ++v) whole[b.vertex_block[v]] += b.edge_length[v];
   bare = whole;
   for (std::size_t k = 0; k < c.size(); ++k) {
-    if (!is_closed(c, k)) continue;
-    const FaceMemory& m = c.now;
-    bare[block_of_edge(b, c, k)] -= std::abs(m.xi_b[k] - m.xi_a[k]) * b.edge_length[c.edge[k]];
-    bare[block_of_facing(b, c, k)] -=
-        std::abs(m.eta_b[k] - m.eta_a[k]) * b.edge_length[c.facing[k]];
+    if (!is_closed_now(sim, k)) continue;
+    const FaceFields<double> m = face_row(sim, k).state;
+    bare[block_of_edge(b, c, k)] -= std::abs(m.xi_b - m.xi_a) * b.edge_length[c.edge[k]];
+    bare[block_of_facing(b, c, k)] -= std::abs(m.eta_b - m.eta_a) * b.edge_length[c.facing[k]];
   }
   std::vector<std::uint8_t> enclosed(b.size(), 0);
   for (std::size_t i = 0; i < b.size(); ++i) {

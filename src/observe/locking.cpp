@@ -8,7 +8,7 @@
 
 #include "base/polygon.hpp"
 #include "base/text.hpp"
-#include "contacts/face_reading.hpp"
+#include "step/faces_now.hpp"
 #include "step/labels.hpp"
 
 namespace edda {
@@ -54,7 +54,7 @@ bool counts(const Simulation& sim, std::size_t k, Index opening) {
     return is_free(b, sim.motion.state, block) &&
            (b.opening.empty() || b.opening[block] != opening);
   };
-  return stays(i) && stays(j) && meets(f, k);
+  return stays(i) && stays(j) && meets(face_row(sim, k));
 }
 
 /// Whether a joint beside a wall that carries this stress along it can hold blocks together,
@@ -90,7 +90,7 @@ LockedOpening around(const Simulation& sim, std::size_t row) {
   const Vec2 centre = hole.centroid - b.origin;
   double length = 0.0, area = 0.0, bends = 0.0, held = 0.0, can_bend = 0.0;
   for (std::size_t k = 0; k < f.size(); ++k) {
-    if (norm(middle_of(f, sim.motion.pose, k) - centre) > 2.0 * o.radius) continue;
+    if (norm(middle_of(face_row(sim, k), sim.motion.pose) - centre) > 2.0 * o.radius) continue;
     if (!counts(sim, k, static_cast<Index>(row))) continue;
     const Id i = block_of_edge(b, f, k), j = block_of_facing(b, f, k);
     const double l = std::min(b.edge_length[f.edge[k]], b.edge_length[f.facing[k]]);
@@ -139,7 +139,7 @@ std::vector<Row> rows_of(const Simulation& sim) {
   const FaceSet& f = sim.motion.contacts;
   std::vector<Row> rows(b.size());
   for (std::size_t k = 0; k < f.size(); ++k) {
-    if (!meets(f, k)) continue;
+    if (!meets(face_row(sim, k))) continue;
     const Id pair[2] = {block_of_edge(b, f, k), block_of_facing(b, f, k)};
     for (int side = 0; side < 2; ++side) {
       Row& row = rows[pair[side]];
@@ -148,7 +148,7 @@ std::vector<Row> rows_of(const Simulation& sim) {
         continue;
       }
       row.other[row.joints] = pair[1 - side];
-      row.middle[row.joints++] = middle_of(f, sim.motion.pose, k);
+      row.middle[row.joints++] = middle_of(face_row(sim, k), sim.motion.pose);
       const double l = std::min(b.edge_length[f.edge[k]], b.edge_length[f.facing[k]]);
       row.stiffness += 0.5 * bending_ratio(sim, k, pair[side], b.area[pair[side]] / l);
     }

@@ -9,7 +9,6 @@
 
 #include "base/parallel.hpp"
 #include "base/text.hpp"
-#include "contacts/face_reading.hpp"
 #include "forces/mass_scaling.hpp"
 #include "model/stage_names.hpp"
 #include "observe/cannot_rest.hpp"
@@ -19,6 +18,7 @@
 #include "observe/locking.hpp"
 #include "observe/observe.hpp"
 #include "observe/sliver_report.hpp"
+#include "step/faces_now.hpp"
 #include "step/labels.hpp"
 
 namespace edda {
@@ -68,8 +68,9 @@ void warn_of_sudden_gravity(const Simulation& sim, std::vector<std::string>& war
   bool carried = sim.attached.springs.size() > 0;
   const FaceSet& f = sim.motion.contacts;
   for (std::size_t k = 0; k < f.size() && !carried; ++k) {
-    carried = meets(f, k) && (free_block(sim, block_of_edge(sim.scene->blocks, f, k)) ||
-                              free_block(sim, block_of_facing(sim.scene->blocks, f, k)));
+    carried =
+        meets(face_row(sim, k)) && (free_block(sim, block_of_edge(sim.scene->blocks, f, k)) ||
+                                    free_block(sim, block_of_facing(sim.scene->blocks, f, k)));
   }
   if (!carried || some_block_moves(sim)) return;
   warnings.emplace_back(
@@ -95,7 +96,7 @@ void warn_of_springs(const Simulation& sim, std::vector<std::string>& warnings) 
   const FaceSet& f = sim.motion.contacts;
   Extreme low{std::numeric_limits<double>::infinity()}, high{0.0};
   for (std::size_t k = 0; k < f.size(); ++k) {
-    if (!meets(f, k)) continue;
+    if (!meets(face_row(sim, k))) continue;
     const double ratio = face_ratio(sim, k);
     if (!(ratio > 0.0)) continue;
     // A given kn is taken as measured. The spring of a restitution is meant to be soft.
@@ -112,7 +113,8 @@ void warn_of_springs(const Simulation& sim, std::vector<std::string>& warnings) 
         f.stiffness[k] / sim.scene->blocks.thickness,
         block_label(sim.scene->blocks, block_of_facing(sim.scene->blocks, f, k)),
         block_label(sim.scene->blocks, block_of_edge(sim.scene->blocks, f, k)),
-        place_label(middle_of(f, sim.motion.pose, k) + sim.scene->blocks.origin), e.ratio);
+        place_label(middle_of(face_row(sim, k), sim.motion.pose) + sim.scene->blocks.origin),
+        e.ratio);
   };
   if (low.ratio < soft) {
     warnings.push_back("contacts are so soft that the joints deform far more than the blocks: " +
@@ -248,9 +250,10 @@ void warn_of_overlaps(const Simulation& sim, std::vector<std::string>& warnings)
   double energy = 0.0, lift = 0.0;
   Extreme deepest{0.0};
   for (std::size_t k = 0; k < f.size(); ++k) {
-    const double d = closure_of(f, k);
-    if (!(f.now.energy[k] > 0.0) || !(d > 0.0)) continue;
-    energy += f.now.energy[k];
+    const FaceRow row = face_row(sim, k);
+    const double d = closure_of(row);
+    if (!(row.state.energy > 0.0) || !(d > 0.0)) continue;
+    energy += row.state.energy;
     if (d > deepest.ratio) deepest = {d, k};
   }
   const std::size_t k = deepest.contact;
@@ -274,7 +277,8 @@ void warn_of_overlaps(const Simulation& sim, std::vector<std::string>& warnings)
       "compressed from the start and store {:.3g} J: draw the blocks so that they touch, or cut "
       "both from one [domain] with a [[trace]], or begin with a [[stage]] until = \"equilibrium\"",
       block_label(sim.scene->blocks, j), block_label(sim.scene->blocks, i), deepest.ratio,
-      place_label(middle_of(f, sim.motion.pose, k) + sim.scene->blocks.origin), energy));
+      place_label(middle_of(face_row(sim, k), sim.motion.pose) + sim.scene->blocks.origin),
+      energy));
 }
 
 /// A number is fitted to the impact of a square; other shapes differ where blocks strain in it.
@@ -356,9 +360,10 @@ std::string governed_by(Simulation& sim) {
   if (bound.contact != no_id) {
     const Id k = bound.contact, i = block_of_edge(sim.scene->blocks, f, k),
              j = block_of_facing(sim.scene->blocks, f, k);
-    text += fmt::format("; most of it by the contact with {} at {}",
-                        block_label(sim.scene->blocks, i == bound.block ? j : i),
-                        place_label(middle_of(f, sim.motion.pose, k) + sim.scene->blocks.origin));
+    text += fmt::format(
+        "; most of it by the contact with {} at {}",
+        block_label(sim.scene->blocks, i == bound.block ? j : i),
+        place_label(middle_of(face_row(sim, k), sim.motion.pose) + sim.scene->blocks.origin));
   }
   return text + by_how_much(sim);
 }

@@ -42,24 +42,28 @@ double polar_angle(const BlockSet& b, const State& s, std::size_t i) {
 
 /// Displacement of the middle of the overlap along the edge since the start: relative to each
 /// other, of the two material points that lie there now.
-double slip_since_start(const BlockSet& b, const FaceSet& f, std::size_t k) {
-  const double xi = 0.5 * (f.now.xi_a[k] + f.now.xi_b[k]);
-  const double eta = 0.5 * (f.now.eta_a[k] + f.now.eta_b[k]);
-  const FacePoints drawn = face_points(f, b.vertex_x, b.vertex_y, k);
-  return -dot(from_point_of_e(drawn, xi, eta), frame_of(drawn, f.inverse_e[k], f.inverse_f[k]));
+double slip_since_start(const BlockSet& b, const FaceRow& row) {
+  const FaceSet& f = row.of;
+  const double xi = 0.5 * (row.state.xi_a + row.state.xi_b);
+  const double eta = 0.5 * (row.state.eta_a + row.state.eta_b);
+  const FacePoints drawn = face_points(f, b.vertex_x, b.vertex_y, row.k);
+  return -dot(from_point_of_e(drawn, xi, eta),
+              frame_of(drawn, f.inverse_e[row.k], f.inverse_f[row.k]));
 }
 
 /// Closed length of the overlap, and the stresses on it: k d at the ends.
-void add_stresses(ContactRecord& r, const Simulation& sim, const FaceSet& f, std::size_t k) {
-  const FaceMemory& m = f.now;
+void add_stresses(ContactRecord& r, const Simulation& sim, const FaceRow& row) {
+  const FaceSet& f = row.of;
+  const std::size_t k = row.k;
+  const FaceFields<double>& m = row.state;
   const bool carries_tension = f.carries_tension[k] > 0.0;
-  const double a = carries_tension ? m.closure_a[k] : std::max(m.closure_a[k], 0.0);
-  const double b = carries_tension ? m.closure_b[k] : std::max(m.closure_b[k], 0.0);
-  const double apart = std::abs(m.closure_a[k] - m.closure_b[k]);
-  const bool whole = carries_tension || std::min(m.closure_a[k], m.closure_b[k]) >= 0.0;
+  const double a = carries_tension ? m.closure_a : std::max(m.closure_a, 0.0);
+  const double b = carries_tension ? m.closure_b : std::max(m.closure_b, 0.0);
+  const double apart = std::abs(m.closure_a - m.closure_b);
+  const bool whole = carries_tension || std::min(m.closure_a, m.closure_b) >= 0.0;
   r.closed_length = whole ? r.length : r.length * (a + b) / apart;
   const double area = r.length * sim.motion.laws.thickness;
-  const double stiffness = m.gate[k] * f.stiffness[k] / sim.motion.laws.thickness;
+  const double stiffness = m.gate * f.stiffness[k] / sim.motion.laws.thickness;
   r.normal_stress_a = stiffness * a;
   r.normal_stress_b = stiffness * b;
   r.normal_stress = area > 0.0 ? r.normal_force / area : 0.0;
@@ -76,7 +80,9 @@ Vec2 displacement_of_corner(const BlockSet& b, const State& s, std::size_t v) {
   return affine + modes.at(s.bend, at) - modes.at(s.from_bend, at);
 }
 
-ContactRecord face_record(const Simulation& sim, const FaceSet& f, std::size_t k) {
+ContactRecord face_record(const Simulation& sim, const FaceRow& row) {
+  const FaceSet& f = row.of;
+  const std::size_t k = row.k;
   const BlockSet& b = sim.scene->blocks;
   ContactRecord r;
   r.block_i = block_of_facing(b, f, k);
@@ -84,28 +90,28 @@ ContactRecord face_record(const Simulation& sim, const FaceSet& f, std::size_t k
   const std::size_t law = f.law[k];
   r.joint = "glued";
   if (law < sim.scene->model.joints.size()) r.joint = sim.scene->model.joints[law].name;
-  r.position = middle_of(f, sim.motion.pose, k) + b.origin;
-  const FaceSpan span = span_of(f, sim.motion.pose, k);
+  r.position = middle_of(row, sim.motion.pose) + b.origin;
+  const FaceSpan span = span_of(row, sim.motion.pose);
   r.a = span.a + b.origin;
   r.b = span.b + b.origin;
-  r.length = f.now.length[k];
-  const double eta = 0.5 * (f.now.eta_a[k] + f.now.eta_b[k]);
+  r.length = row.state.length;
+  const double eta = 0.5 * (row.state.eta_a + row.state.eta_b);
   const State& s = sim.motion.state;
   r.displacement = (1.0 - eta) * displacement_of_corner(b, s, f.facing_end[k]) +
                    eta * displacement_of_corner(b, s, f.facing[k]);
-  r.opening = -closure_of(f, k);
-  r.slip = slip_since_start(b, f, k);
-  r.ever_slipped = f.slipped[k] > 0.0;
-  r.ever_opened = f.opened[k] > 0.0;
-  if (!is_closed(f, k)) return r;
+  r.opening = -closure_of(row);
+  r.slip = slip_since_start(b, row);
+  r.ever_slipped = row.slipped;
+  r.ever_opened = row.opened;
+  if (!is_closed(row)) return r;
   r.state = f.bonded[k] > 0.0 ? ContactState::bonded
-            : slides(f, k)    ? ContactState::slide
+            : slides(row)     ? ContactState::slide
                               : ContactState::stick;
-  r.force = force_on_facing(f, k);
-  r.normal_force = normal_force(f, k);
-  r.shear_force = shear_force(f, k);
-  add_stresses(r, sim, f, k);
-  const double strength = shear_strength(f, k);
+  r.force = force_on_facing(row);
+  r.normal_force = normal_force(row);
+  r.shear_force = shear_force(row);
+  add_stresses(r, sim, row);
+  const double strength = shear_strength(row);
   r.mobilised = f.glued[k] > 0.0 || r.shear_force == 0.0 ? 0.0 : std::abs(r.shear_force) / strength;
   return r;
 }
@@ -170,9 +176,9 @@ Picture picture_of(const Simulation& sim, const Instant& at) {
   for (std::size_t i = 0; i < sim.scene->blocks.size(); ++i) {
     if (at.state.alive[i]) p.blocks.push_back(block_record(sim, at.state, i));
   }
-  const FaceSet f = faces_at_n(sim);
-  for (std::size_t k = 0; k < f.size(); ++k) {
-    if (is_closed(f, k) || f.opened[k] > 0.0) p.contacts.push_back(face_record(sim, f, k));
+  for (std::size_t k = 0; k < sim.motion.contacts.size(); ++k) {
+    if (!is_closed_now(sim, k) && !has_opened(sim, k)) continue;
+    p.contacts.push_back(face_record(sim, face_row(sim, k)));
   }
   for (std::size_t k = 0; k < sim.point_contacts.size(); ++k) {
     if (sim.point_contacts.closed[k] > 0.0 || sim.point_contacts.opened[k] > 0.0)

@@ -77,13 +77,13 @@ StageRecord stage_record(const Simulation& sim, const EnergyBalance& energy, dou
   r.energy = energy;
   r.broken = sim.motion.contacts.broken;
   r.yielded = yielded_bolts(sim.attached.bolts, sim.motion.state);
-  const FaceSet f = faces_at_n(sim);
+  const FaceSet& f = sim.motion.contacts;
   for (std::size_t k = 0; k < f.size(); ++k) {
-    const bool closed = is_closed(f, k);
-    r.open += f.opened[k] > 0.0 && !closed;
+    const bool closed = is_closed_now(sim, k);
+    r.open += has_opened(sim, k) && !closed;
     if (!closed) continue;
     ++r.closed;
-    r.sliding += slides(f, k);
+    r.sliding += slides(face_row(sim, k));
     r.bonded += f.bonded[k] > 0.0;
   }
   return r;

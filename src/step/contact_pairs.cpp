@@ -12,8 +12,9 @@ std::vector<std::pair<Id, Id>> blocks_in_contact(const Simulation& sim, Nearness
   const FaceSet& f = sim.motion.contacts;
   std::vector<std::pair<Id, Id>> pairs;
   for (std::size_t k = 0; k < f.size(); ++k) {
-    if (is_closed_now(sim, k) || (nearness == Nearness::touching && meets(f, k)) ||
-        (nearness == Nearness::near && meets_within(f, near * smaller_size(f, b, k), k)))
+    if (is_closed_now(sim, k) || (nearness == Nearness::touching && meets(face_row(sim, k))) ||
+        (nearness == Nearness::near &&
+         meets_within(face_row(sim, k), near * smaller_size(f, b, k))))
       pairs.emplace_back(block_of_edge(b, f, k), block_of_facing(b, f, k));
   }
   const PointSet& p = sim.point_contacts;

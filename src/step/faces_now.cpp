@@ -10,7 +10,6 @@
 #include "contacts/face_reading.hpp"
 #include "contacts/tile_columns.hpp"
 #include "contacts/tile_rows.hpp"
-#include "step/contact_search.hpp"
 #include "step/simulation.hpp"
 
 namespace edda {
@@ -64,11 +63,15 @@ std::vector<Id> faces_that_may_exceed(const Simulation& sim, double above) {
 
 }  // namespace
 
-FaceSet faces_at_n(const Simulation& sim) {
-  FaceSet faces = sim.motion.contacts;
+FaceRow face_row(const Simulation& sim, std::size_t k) {
   const TiledFaces& tiled = sim.leapfrog.tiled;
-  if (tiled.ahead) unload_faces(faces, tiled.tiles, face_scene(sim), sim.control.step_before);
-  return faces;
+  if (!tiled.ahead) return face_row(sim.motion.contacts, k);
+  return face_row(sim.motion.contacts, tiled.tiles, sim.scene->blocks, sim.motion.pose, k);
+}
+
+bool has_opened(const Simulation& sim, std::size_t k) {
+  if (!sim.leapfrog.tiled.ahead) return sim.motion.contacts.opened[k] > 0.0;
+  return sim.leapfrog.tiled.tiles.has_ever(lane_bits::opens, k);
 }
 
 double face_energy_now(const Simulation& sim, std::size_t k) {

@@ -7,14 +7,17 @@
 #include <vector>
 
 #include "base/vec2.hpp"
-#include "contacts/face_set.hpp"
+#include "contacts/face_reading.hpp"
 
 namespace edda {
 
 struct Simulation;
 
-/// The faces with their states at n, as tables and pictures show them.
-FaceSet faces_at_n(const Simulation& sim);
+/// Face k at the end of the last step.
+FaceRow face_row(const Simulation& sim, std::size_t k);
+
+/// Whether it has opened after having been closed.
+bool has_opened(const Simulation& sim, std::size_t k);
 
 /// Energy that face k stores between steps n - 1 and n, J.
 double face_energy_now(const Simulation& sim, std::size_t k);

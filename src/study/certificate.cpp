@@ -6,6 +6,7 @@
 #include "contacts/find_faces.hpp"
 #include "judge/rest.hpp"
 #include "limit/joint_strength.hpp"
+#include "step/faces_now.hpp"
 
 namespace edda {
 namespace {
@@ -54,7 +55,7 @@ std::vector<RigidStrength> strength_now(const Simulation& now, const RigidBlocks
   const FaceSet& f = now.motion.contacts;
   for (std::size_t k = 0; k < all.size(); ++k) {
     const RigidJoint& joint = rigid.joints[k];
-    const bool broken = f.now.energy[joint.face] > 0.0 && f.bonded[joint.face] == 0.0;
+    const bool broken = face_row(now, joint.face).state.energy > 0.0 && f.bonded[joint.face] == 0.0;
     if (broken && !laws.rows[joint.law].changes) continue;
     all[k].friction = std::max(all[k].friction, peak[k].friction);
     all[k].shear = std::max(all[k].shear, peak[k].shear);

@@ -10,9 +10,9 @@
 #include <set>
 
 #include "base/text.hpp"
-#include "contacts/face_reading.hpp"
 #include "results/columns.hpp"
 #include "run/stages.hpp"
+#include "step/faces_now.hpp"
 #include "step/labels.hpp"
 #include "step/touching.hpp"
 #include "study/moving_faces.hpp"
@@ -44,7 +44,8 @@ std::vector<std::uint8_t> next_to_something(const Simulation& s, double gap) {
   std::vector<std::uint8_t> near = touching(s);
   const FaceSet& f = s.motion.contacts;
   for (std::size_t k = 0; k < f.size(); ++k) {
-    if (f.now.gate[k] == 0.0 || closure_of(f, k) <= -gap) continue;
+    const FaceRow row = face_row(s, k);
+    if (row.state.gate == 0.0 || closure_of(row) <= -gap) continue;
     near[block_of_edge(s.scene->blocks, f, k)] = near[block_of_facing(s.scene->blocks, f, k)] = 1;
   }
   return near;
@@ -107,7 +108,7 @@ std::vector<Id> pieces(const Simulation& sim, const std::vector<std::uint8_t>& m
   const FaceSet& f = sim.motion.contacts;
   for (std::size_t k = 0; k < f.size(); ++k) {
     const auto [i, j] = blocks_of_face(sim.scene->blocks, f, k);
-    if (!is_closed(f, k) || !moves[i] || !moves[j] || apart.contains({i, j})) continue;
+    if (!is_closed_now(sim, k) || !moves[i] || !moves[j] || apart.contains({i, j})) continue;
     const auto [low, high] = std::minmax({root(i), root(j)});
     first[high] = low;
   }
@@ -269,9 +270,10 @@ void find_lost_cohesion(Mechanism& m, const Simulation& stable) {
     const auto [i, j] = blocks_of_face(stable.scene->blocks, f, k);
     if (!brittle.contains({i, j, f.law[k]})) continue;
     const bool lost = f.bonded[k] == 0.0;
-    if (lost && !is_closed(f, k) && f.opened[k] == 0.0) continue;  // was never bonded
-    m.brittle_length += f.now.length[k];
-    if (lost) m.cohesion_lost_length += f.now.length[k];
+    const FaceRow row = face_row(stable, k);
+    if (lost && !is_closed(row) && !row.opened) continue;  // was never bonded
+    m.brittle_length += row.state.length;
+    if (lost) m.cohesion_lost_length += row.state.length;
   }
   if (has_lost_cohesion(m))
     m.text +=

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "contacts/evaluate_faces.hpp"
-#include "contacts/face_reading.hpp"
+#include "step/faces_now.hpp"
 
 namespace edda {
 namespace {
@@ -58,17 +58,19 @@ void collect_joints(SeenJoints& joints, const Simulation& before, const Simulati
   std::map<std::pair<Id, Id>, double> largest;
   for (std::size_t k = 0; k < f.size(); ++k) {
     double& force = largest[blocks_of_face(b, f, k)];
-    force = std::max(force, normal_force(f, k));
+    force = std::max(force, normal_force(face_row(before, k)));
   }
   constexpr double counts = 1e-3;  // of the face with the largest force between the two blocks
   for (std::size_t k = 0; k < f.size(); ++k) {
     const auto [i, j] = blocks_of_face(b, f, k);
-    const bool along = f.acts[k] > 0.0 && f.now.cohesive[k] > 0.0 && closure_of(f, k) > -least;
-    if (!along && !(normal_force(f, k) > counts * largest[{i, j}])) continue;
+    const FaceRow row = face_row(before, k);
+    const FaceFields<double>& m = row.state;
+    const bool along = f.acts[k] > 0.0 && m.cohesive > 0.0 && closure_of(row) > -least;
+    if (!along && !(normal_force(row) > counts * largest[{i, j}])) continue;
     const double length = std::min(b.edge_length[f.edge[k]], b.edge_length[f.facing[k]]);
     const double turning = std::abs(rotation[i] - rotation[j]) * length;
-    const EndMoved ends[2] = {end_moved(before, after, k, f.now.xi_a[k], f.now.eta_a[k]),
-                              end_moved(before, after, k, f.now.xi_b[k], f.now.eta_b[k])};
+    const EndMoved ends[2] = {end_moved(before, after, k, m.xi_a, m.eta_a),
+                              end_moved(before, after, k, m.xi_b, m.eta_b)};
     const double near = 2.0 * least + 1e-3 * length;
     const EndMoved most = largest_of(ends, near);
     if (most.apart > near || std::max({most.slip, most.opening, turning}) < least) continue;
@@ -92,8 +94,7 @@ void collect_joints(SeenJoints& joints, const Simulation& before, const Simulati
       return (1.0 - xi) * (is.p1 - was.p1) + xi * (is.p2 - was.p2);
     };
     if (norm(ends[1].place - ends[0].place) > 1e-3 * length) {
-      joint.stretches.push_back(
-          {ends[0].place, ends[1].place, carried(f.now.xi_a[k]), carried(f.now.xi_b[k])});
+      joint.stretches.push_back({ends[0].place, ends[1].place, carried(m.xi_a), carried(m.xi_b)});
     }
     joint.block_i = i;
     joint.block_j = j;
