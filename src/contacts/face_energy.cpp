@@ -46,12 +46,11 @@ double normal_energy(const FaceSet& c, const BlockSet& b, const Pose& pose, std:
 }
 
 double face_energy(const FaceSet& c, const BlockSet& b, const Pose& pose, const SpringsOfFace& old,
-                   std::size_t k) {
+                   const Face& face, std::size_t k) {
   const FaceEnds had = old.slip;
-  const bool slips = old.spring > 0.0 && (had.a != 0.0 || had.b != 0.0);
+  const bool slips = old.have_slip();
   const bool open = !old.stores && !(c.carries_tension[k] > 0.0);
   if (open && !slips) return 0.0;
-  const Face face = face_at(c, b, pose.x, pose.y, k);
   double shear = 0.0;
   if (slips) {
     const FaceEnds slip =
@@ -63,8 +62,9 @@ double face_energy(const FaceSet& c, const BlockSet& b, const Pose& pose, const 
 
 double face_energy(const FaceSet& c, const BlockSet& b, const Pose& pose, std::size_t k) {
   const FaceMemory& m = c.before;
-  return face_energy(c, b, pose, {m.spring[k], {m.slip_a[k], m.slip_b[k]}, c.now.energy[k] > 0.0},
-                     k);
+  const SpringsOfFace springs{m.spring[k], {m.slip_a[k], m.slip_b[k]}, c.now.energy[k] > 0.0};
+  if (!springs.stores && c.carries_tension[k] == 0.0 && !springs.have_slip()) return 0.0;
+  return face_energy(c, b, pose, springs, face_at(c, b, pose.x, pose.y, k), k);
 }
 
 }  // namespace edda

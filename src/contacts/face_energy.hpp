@@ -21,10 +21,12 @@ struct SpringsOfFace {
   double spring;
   FaceEnds slip;
   bool stores;
+  bool have_slip() const { return spring > 0.0 && (slip.a != 0.0 || slip.b != 0.0); }
 };
 /// Energy that face k stores between steps n - 1 and n, normal and shear, J.
+/// at_n: the face at n, which needs to be right where it stores energy or its springs have slip.
 double face_energy(const FaceSet& faces, const BlockSet& blocks, const Pose& pose,
-                   const SpringsOfFace& springs, std::size_t k);
+                   const SpringsOfFace& springs, const Face& at_n, std::size_t k);
 double face_energy(const FaceSet& faces, const BlockSet& blocks, const Pose& pose, std::size_t k);
 
 /// The part of face_energy() that is due to the normal pressure, J.

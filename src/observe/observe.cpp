@@ -234,22 +234,30 @@ BlockStress block_stress(const Simulation& sim, const State& s, std::size_t i) {
 }
 
 double force_scale(const Simulation& sim, const std::vector<Id>& blocks) {
+  return force_scale(sim, blocks, normal_forces(sim, measure_faces(sim).normal));
+}
+
+double force_scale(const Simulation& sim, const std::vector<Id>& blocks,
+                   const NormalForces& contacts) {
   const LoadsNow acting = loads_at(sim.scene->model, sim.attached.loads, sim.motion.state.time);
   double loads = 0.0;
   for (const Id i : blocks) {
     loads += sim.scene->blocks.mass[i] * norm(sim.scene->model.gravity) +
              norm(load_on(sim.scene->blocks, acting, sim.motion.pose, i));
   }
-  const NormalForces pressed = normal_forces(sim);
   // Contacts that barely touch, as at the start, carry forces of the order of rounding, which are
   // no reference.
   const double mean_load = blocks.empty() ? 0.0 : loads / static_cast<double>(blocks.size());
   const double mean_normal =
-      pressed.ends > 0 ? pressed.sum / static_cast<double>(pressed.ends) : 0.0;
+      contacts.ends > 0 ? contacts.pressed / static_cast<double>(contacts.ends) : 0.0;
   return mean_normal > 1e-3 * mean_load ? mean_normal : mean_load;
 }
 
 double unbalanced_ratio(const Simulation& sim, const Instant& at) {
+  return unbalanced_ratio(sim, at, normal_forces(sim, measure_faces(sim).normal));
+}
+
+double unbalanced_ratio(const Simulation& sim, const Instant& at, const NormalForces& contacts) {
   std::vector<Id> free_blocks;
   double force = 0.0;
   for (std::size_t i = 0; i < sim.scene->blocks.size(); ++i) {
@@ -258,7 +266,7 @@ double unbalanced_ratio(const Simulation& sim, const Instant& at) {
     free_blocks.push_back(static_cast<Id>(i));
   }
   if (force == 0.0) return 0.0;
-  const double scale = force_scale(sim, free_blocks);
+  const double scale = force_scale(sim, free_blocks, contacts);
   return scale > 0.0 ? force / static_cast<double>(free_blocks.size()) / scale : 1.0;
 }
 

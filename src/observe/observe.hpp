@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "results/records.hpp"
+#include "step/contact_pairs.hpp"
 #include "step/instant.hpp"
 #include "step/simulation.hpp"
 
@@ -34,10 +35,13 @@ BlockStress block_stress(const Simulation& sim, const State& state, std::size_t 
 /// Mean normal force per end of the faces that carry load, N; where none does, the mean of weight
 /// and loads over `blocks`.
 double force_scale(const Simulation& sim, const std::vector<Id>& blocks);
+double force_scale(const Simulation& sim, const std::vector<Id>& blocks,
+                   const NormalForces& contacts);
 
 /// Mean resultant force of the free blocks, over force_scale(); 0 without any force, 1 where there
 /// is no reference.
 double unbalanced_ratio(const Simulation& sim, const Instant& at);
+double unbalanced_ratio(const Simulation& sim, const Instant& at, const NormalForces& contacts);
 
 /// Updates State::turns. Must be called often enough that no block rotates by pi between two calls;
 /// `angle` keeps the polar angles of the last call (rad, empty at first).

@@ -59,7 +59,7 @@ struct Outcome {
   double largest_transfer = 0.0;  ///< largest absolute value of all rows, over the largest energy
   double unbalanced = 0.0;        ///< at the last row
   Overlap overlap;                ///< the largest of the run
-  double overlap_now = 0.0;       ///< largest ratio at the last row
+  double overlap_now = 0.0;       ///< largest ratio at the end
   Id fastest = no_id;   ///< block with the fastest vertex at the last row; none: no block is free
   double speed = 0.0;   ///< m/s, of that vertex
   bool at_rest = true;  ///< at the last row

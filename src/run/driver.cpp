@@ -47,7 +47,7 @@ Id most_energetic(const Simulation& sim) {
 
 /// Resultant of the forces on all free blocks, over the sum of their weights and loads: in
 /// equilibrium it is 0, and boundary reactions balance weight and loads. 0 where there are none.
-double reaction_error(const Simulation& sim, const Instant& at) {
+double reaction_error(const Simulation& sim, const Instant& at, const NormalForces& contacts) {
   Vec2 sum;
   double weight = 0.0;
   const LoadsNow acting = loads_at(sim.scene->model, sim.attached.loads, sim.motion.state.time);
@@ -58,9 +58,7 @@ double reaction_error(const Simulation& sim, const Instant& at) {
               norm(load_on(sim.scene->blocks, acting, sim.motion.pose, i));
   }
   // Without weight, or where loads cancel, the contact forces are the only reference.
-  double pressed = 0.0;
-  for (const double force : normal_forces_now(sim)) pressed += std::abs(force);
-  if (weight < 1e-6 * pressed) weight = pressed;
+  if (weight < 1e-6 * contacts.size) weight = contacts.size;
   return weight > 0.0 ? norm(sum) / weight : 0.0;
 }
 
@@ -268,17 +266,18 @@ bool Driver::record(const Event& event) {
   const auto start = Clock::now();
   count_revolutions(sim_, angle_);
   measure_overlaps();
-  outcome_.overlap_now = deepest_now(sim_, 0.0).ratio;
   const Instant& instant = look();
   bool fine = true;
   if (event.row) {
-    const EnergyBalance energy = account_energy(sim_);
+    const FaceMeasures faces = measure_faces(sim_);
+    const NormalForces contacts = normal_forces(sim_, faces.normal);
+    const EnergyBalance energy = account_energy(sim_, faces);
     outcome_.energy = energy;
     outcome_.largest_energy_error = std::max(outcome_.largest_energy_error, std::abs(energy.error));
     outcome_.largest_transfer = std::max(outcome_.largest_transfer,
                                          std::abs(energy.transfer) / sim_.accounts.largest_energy);
-    outcome_.unbalanced = unbalanced_ratio(sim_, instant);
-    outcome_.reaction_error = reaction_error(sim_, instant);
+    outcome_.unbalanced = unbalanced_ratio(sim_, instant, contacts);
+    outcome_.reaction_error = reaction_error(sim_, instant, contacts);
     look_at_motion(sim_, instant, outcome_);
     outcome_.slowed_in_fall = std::max(outcome_.slowed_in_fall, slowed_down_in_fall(sim_));
     last_row_ = sim_.motion.state.time;

@@ -33,6 +33,7 @@ void Driver::write_end() {
     if (event.row || event.frame) record(event);
     outcome_.wall.output = wall;
   }
+  if (begun && all_finite(sim_)) outcome_.overlap_now = deepest_now(sim_, 0.0).ratio;
   outcome_.ramps = ramp_outcomes(sim_.scene->model, curve_);
   outcome_.contacts = blocks_in_contact(sim_, Nearness::closed).size();
   if (const Trouble trouble = disk_trouble_ ? Trouble{} : write_curve()) ended_by(trouble);

@@ -1,5 +1,7 @@
 #include "step/contact_pairs.hpp"
 
+#include <cmath>
+
 #include "contacts/face_reading.hpp"
 #include "step/faces_now.hpp"
 #include "step/simulation.hpp"
@@ -26,16 +28,17 @@ std::vector<std::pair<Id, Id>> blocks_in_contact(const Simulation& sim, Nearness
   return pairs;
 }
 
-NormalForces normal_forces(const Simulation& sim) {
-  NormalForces pressed;
+NormalForces normal_forces(const Simulation& sim, const std::vector<double>& of_faces) {
+  NormalForces all;
   const auto add = [&](double force, std::size_t ends) {
+    all.size += std::abs(force);
     if (!(force > 0.0)) return;
-    pressed.sum += force;
-    pressed.ends += ends;
+    all.pressed += force;
+    all.ends += ends;
   };
-  for (const double force : normal_forces_now(sim)) add(force, 2);
+  for (const double force : of_faces) add(force, 2);
   for (const double force : sim.point_contacts.normal) add(force, 1);
-  return pressed;
+  return all;
 }
 
 }  // namespace edda

@@ -20,11 +20,13 @@ enum class Nearness {
 /// Both blocks of each contact that is so near, one pair for each contact.
 std::vector<std::pair<Id, Id>> blocks_in_contact(const Simulation& sim, Nearness nearness);
 
-/// Normal forces of the contacts that are pressed, N.
+/// Normal forces of the contacts, N.
 struct NormalForces {
-  double sum = 0.0;
-  std::size_t ends = 0;  ///< on how many ends of faces, or points
+  double pressed = 0.0;  ///< the sum of those that press
+  std::size_t ends = 0;  ///< on how many ends of faces, or points, they act
+  double size = 0.0;     ///< the sum of all sizes
 };
-NormalForces normal_forces(const Simulation& sim);
+/// of_faces: FaceMeasures::normal.
+NormalForces normal_forces(const Simulation& sim, const std::vector<double>& of_faces);
 
 }  // namespace edda

@@ -55,6 +55,10 @@ double rounding_energy(const BlockSet& b, const FaceSet& c, Vec2 gravity) {
 }
 
 EnergyBalance energy_balance(const Simulation& sim) {
+  return energy_balance(sim, measure_faces(sim));
+}
+
+EnergyBalance energy_balance(const Simulation& sim, const FaceMeasures& faces) {
   const BlockSet& b = sim.scene->blocks;
   const State& s = sim.motion.state;
   const FaceSet& c = sim.motion.contacts;
@@ -70,7 +74,7 @@ EnergyBalance energy_balance(const Simulation& sim) {
   const auto over_faces = [&](double FaceWork::*taken) {
     return ordered_sum(c.size(), [&](std::size_t k) { return work_now(sim, k).*taken; });
   };
-  const auto in_faces = [&](std::size_t k) { return face_energy_now(sim, k); };
+  const auto in_faces = [&](std::size_t k) { return faces.energy[k]; };
   const std::vector<double>& damped = accounts.damping_work.joules;
   EnergyBalance l;
   l.kinetic = over_free([&](std::size_t i) { return kinetic_energy(sim.motion.masses, b, s, i); });
@@ -104,8 +108,12 @@ double energy_scale(const Simulation& sim, const EnergyBalance& l) {
 }
 
 EnergyBalance account_energy(Simulation& sim) {
+  return account_energy(sim, measure_faces(sim));
+}
+
+EnergyBalance account_energy(Simulation& sim, const FaceMeasures& faces) {
   Accounts& accounts = sim.accounts;
-  EnergyBalance l = energy_balance(sim);
+  EnergyBalance l = energy_balance(sim, faces);
   if (!accounts.start_energy) accounts.start_energy = l.balance();
   accounts.largest_energy = energy_scale(sim, l);
   l.error = (l.balance() - *accounts.start_energy) / accounts.largest_energy;

@@ -8,6 +8,7 @@
 #include "blocks/state.hpp"
 #include "contacts/face_set.hpp"
 #include "integrate/leapfrog.hpp"
+#include "step/faces_now.hpp"
 
 namespace edda {
 
@@ -39,8 +40,10 @@ double rounding_energy(const BlockSet& blocks, const FaceSet& contacts, Vec2 gra
 /// All terms but the error, from positions at step n and velocities at the instant at which the
 /// method has them.
 EnergyBalance energy_balance(const Simulation& sim);
+EnergyBalance energy_balance(const Simulation& sim, const FaceMeasures& faces);
 /// The same with the error; updates Accounts::start_energy and largest_energy.
 EnergyBalance account_energy(Simulation& sim);
+EnergyBalance account_energy(Simulation& sim, const FaceMeasures& faces);
 /// EnergyBalance::balance(), J.
 double total_energy(const Simulation& sim);
 /// Reference for the error: the largest scale so far, not less than rounding_energy(), J.

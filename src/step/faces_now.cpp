@@ -74,17 +74,6 @@ bool has_opened(const Simulation& sim, std::size_t k) {
   return sim.leapfrog.tiled.tiles.has_ever(lane_bits::opens, k);
 }
 
-double face_energy_now(const Simulation& sim, std::size_t k) {
-  const FaceSet& c = sim.motion.contacts;
-  const FaceTiles& t = sim.leapfrog.tiled.tiles;
-  const BlockSet& b = sim.scene->blocks;
-  if (!sim.leapfrog.tiled.ahead) return face_energy(c, b, sim.motion.pose, k);
-  if (t.place[k][0] == no_id) return 0.0;
-  const auto old = get<FaceMemoryColumns<double>>(t, 1 - t.now, t.place[k][0]);
-  return face_energy(c, b, sim.motion.pose,
-                     {old.spring, {old.slip_a, old.slip_b}, t.remembers(lane_bits::stored, k)}, k);
-}
-
 FaceWork work_now(const Simulation& sim, std::size_t k) {
   const FaceSet& c = sim.motion.contacts;
   const FaceTiles& t = sim.leapfrog.tiled.tiles;
@@ -108,23 +97,28 @@ bool is_closed_now(const Simulation& sim, std::size_t k) {
 
 namespace {
 
+constexpr std::size_t cost_of_a_face = 100 / seldom;  // ns, of closed faces and open ones
+
+/// Normal force of face k, which is in tiles and is this element now, N.
+double normal_of(const Simulation& sim, const Face& face, std::size_t k) {
+  const FaceEnds dashpots = dashpots_across(sim, k);
+  return face.normal.a + face.normal.b + dashpots.a + dashpots.b;
+}
+
 NormalNow normal_now(const Simulation& sim, std::size_t k) {
   if (!is_closed_now(sim, k)) return {};
   const FaceSet& c = sim.motion.contacts;
   if (!sim.leapfrog.tiled.ahead)
     return {normal_force(c, k), c.stiffness[k] * c.now.length[k] * c.now.gate[k]};
   const Face face = face_now(sim, k);
-  const FaceEnds dashpots = dashpots_across(sim, k);
-  return {face.normal.a + face.normal.b + dashpots.a + dashpots.b,
-          c.stiffness[k] * std::max(face.length, 0.0) * face.gate};
+  return {normal_of(sim, face, k), c.stiffness[k] * std::max(face.length, 0.0) * face.gate};
 }
 
 template <class Value, class Of>
 std::vector<Value> of_all_faces(const Simulation& sim, Of of) {
   std::vector<Value> values(sim.motion.contacts.size());
-  constexpr std::size_t cost = 100 / seldom;  // ns, of closed faces and open ones
   parallel_for(
-      values.size(), [&](std::size_t k) { values[k] = of(k); }, cost);
+      values.size(), [&](std::size_t k) { values[k] = of(k); }, cost_of_a_face);
   return values;
 }
 
@@ -134,8 +128,30 @@ double normal_force_now(const Simulation& sim, std::size_t k) {
   return normal_now(sim, k).force;
 }
 
-std::vector<double> normal_forces_now(const Simulation& sim) {
-  return of_all_faces<double>(sim, [&](std::size_t k) { return normal_force_now(sim, k); });
+FaceMeasures measure_faces(const Simulation& sim) {
+  const FaceSet& c = sim.motion.contacts;
+  const FaceTiles& t = sim.leapfrog.tiled.tiles;
+  const BlockSet& b = sim.scene->blocks;
+  FaceMeasures all{std::vector<double>(c.size(), 0.0), std::vector<double>(c.size(), 0.0)};
+  const auto measure = [&](std::size_t k) {
+    if (!sim.leapfrog.tiled.ahead) {
+      all.normal[k] = normal_now(sim, k).force;
+      all.energy[k] = face_energy(c, b, sim.motion.pose, k);
+      return;
+    }
+    const Id place = t.place[k][0];
+    if (place == no_id) return;
+    const auto old = get<FaceMemoryColumns<double>>(t, 1 - t.now, place);
+    const SpringsOfFace springs{
+        old.spring, {old.slip_a, old.slip_b}, t.remembers(lane_bits::stored, k)};
+    const bool closed = is_closed_now(sim, k);
+    if (!closed && c.carries_tension[k] == 0.0 && !springs.have_slip()) return;
+    const Face face = face_now(sim, k);
+    if (closed) all.normal[k] = normal_of(sim, face, k);
+    all.energy[k] = face_energy(c, b, sim.motion.pose, springs, face, k);
+  };
+  parallel_for(c.size(), measure, cost_of_a_face);
+  return all;
 }
 
 std::vector<NormalNow> normals_now(const Simulation& sim, const std::vector<std::uint8_t>& of) {

@@ -19,8 +19,12 @@ FaceRow face_row(const Simulation& sim, std::size_t k);
 /// Whether it has opened after having been closed.
 bool has_opened(const Simulation& sim, std::size_t k);
 
-/// Energy that face k stores between steps n - 1 and n, J.
-double face_energy_now(const Simulation& sim, std::size_t k);
+/// Of all faces, [nf]: normal force, N, as normal_force_now(), and energy stored between steps n -
+/// 1 and n, J.
+struct FaceMeasures {
+  std::vector<double> normal, energy;
+};
+FaceMeasures measure_faces(const Simulation& sim);
 
 /// Work of face k accumulated until step n - 1, and that of its dashpots at n - 1 which they do
 /// last, J.
@@ -35,8 +39,6 @@ bool is_closed_now(const Simulation& sim, std::size_t k);
 /// Normal force of face k, N, positive in compression, that of its dashpots included; 0 where it is
 /// not closed.
 double normal_force_now(const Simulation& sim, std::size_t k);
-
-std::vector<double> normal_forces_now(const Simulation& sim);  ///< [nf]
 
 /// Across a face; 0 where it is not closed.
 struct NormalNow {
