@@ -210,7 +210,7 @@ EDDA_INLINE void evaluate_lane(const ChunkColumns& c, std::size_t k, Records& on
     return is ? bit << of : 0;
   };
   const double work = std::abs(s.friction) + std::abs(s.transfer);
-  const bool cut = is_cut(s.trial.a, s.slip.a) | is_cut(s.trial.b, s.slip.b);
+  const bool cut = is_cut(s.trial, s.slip);
   state |= mark(face.energy > 0.0, lane_bits::stored) | mark(face.gate > 0.0, lane_bits::on) |
            mark(s.closed_a, lane_bits::closed_a) | mark(s.closed_b, lane_bits::closed_b) |
            mark(s.touches, touches) | mark(in.before.spring > 0.0, carried) | mark(s.free, is_free);

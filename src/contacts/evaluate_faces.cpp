@@ -268,7 +268,7 @@ EDDA_INLINE void end_step(const ChunkAccounts& c, bool dashpots, std::size_t k) 
   c.of.fracture_work[k] += fails ? taken : 0.0;
   c.of.friction_work[k] += fails ? 0.0 : taken;
   if (dashpots) c.of.damping_work[k] += m.damping_work[k] + m.damping_due[k];
-  const bool cut = is_cut(m.trial_a[k], m.slip_a[k]) | is_cut(m.trial_b[k], m.slip_b[k]);
+  const bool cut = is_cut({m.trial_a[k], m.trial_b[k]}, {m.slip_a[k], m.slip_b[k]});
   const bool opens = (c.before.energy[k] > 0.0) & (m.energy[k] == 0.0);
   c.of.slipped[k] = cut ? 1.0 : c.of.slipped[k];
   c.of.opened[k] = opens ? 1.0 : c.of.opened[k];

@@ -18,6 +18,10 @@ EDDA_INLINE double coulomb_limit(double cohesion, double friction, double normal
 EDDA_INLINE bool is_cut(double trial, double slip) {
   return trial != slip;
 }
+/// Whether one of both ends does.
+EDDA_INLINE bool is_cut(FaceEnds trial, FaceEnds slip) {
+  return (trial.a != slip.a) | (trial.b != slip.b);
+}
 
 /// Strength of a bonded face. Members as in FaceProperties.
 struct BondStrength {
