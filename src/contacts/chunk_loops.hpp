@@ -34,7 +34,8 @@ struct SweepTables {
   const Id *edge_set, *strength_set;     ///< [chunks]
   const double *before, *damped_before;  ///< FaceMemoryColumns, DashpotMemoryColumns
   double *memory, *damped;
-  double* work;  ///< FaceWorkColumns
+  double* work;       ///< FaceWorkColumns
+  double* pressures;  ///< PressureColumns; null where they are not kept
   const Id *record_e, *record_f;
   const LaneBits* was;  ///< [chunks]
   double* on;           ///< records of the forces on the edges
@@ -70,7 +71,7 @@ inline ChunkView view_of_constants(const SweepTables& t, std::size_t chunk) {
   return view;
 }
 
-/// With all that the tile holds of it.
+/// With all that the tile holds of it. pressures: for those of a chunk where they are not kept.
 inline ChunkView view_of(const SweepTables& t, std::size_t chunk, double* stands, double* overlaps,
                          double* pressures) {
   const std::size_t n = chunk - t.first_chunk, memory = n * memory_columns * lanes;
@@ -84,7 +85,7 @@ inline ChunkView view_of(const SweepTables& t, std::size_t chunk, double* stands
   }
   view.stands = stands;
   view.overlaps = overlaps;
-  view.pressures = pressures;
+  view.pressures = t.pressures != nullptr ? t.pressures + n * pressure_columns * lanes : pressures;
   return view;
 }
 

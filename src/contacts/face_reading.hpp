@@ -89,7 +89,7 @@ inline double shear_strength(const FaceRow& r) {
 inline bool slides(const FaceRow& r) {
   const FaceFields<double>& m = r.state;
   return is_closed(r) && r.of.bonded[r.k] == 0.0 &&
-         (is_cut(m.trial_a, m.slip_a) || is_cut(m.trial_b, m.slip_b));
+         is_cut(FaceEnds{m.trial_a, m.trial_b}, FaceEnds{m.slip_a, m.slip_b});
 }
 
 /// Force on the block of `facing`, N; the force on the block of `edge` is opposite.

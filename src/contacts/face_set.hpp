@@ -40,6 +40,22 @@ struct FaceFields {
   C damping_due;   ///< work of the dashpot forces at n - 1 in it, the last that they do, J
 };
 
+/// Fills what follows from the corners of a face, which is this element there.
+inline void take_element(FaceFields<double>& m, const Face& face) {
+  m.closure_a = face.closure.a;
+  m.closure_b = face.closure.b;
+  m.energy = face.energy;
+  m.normal_a = face.normal.a;
+  m.normal_b = face.normal.b;
+  m.length = larger(face.length, 0.0);
+  m.cohesive = face.cohesive;
+  m.gate = face.gate;
+  m.xi_a = face.xi.a;
+  m.xi_b = face.xi.b;
+  m.eta_a = face.eta.a;
+  m.eta_b = face.eta.b;
+}
+
 /// The columns of FaceFields: name, unit and member.
 template <class C>
 struct FaceField {

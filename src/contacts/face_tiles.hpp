@@ -176,10 +176,11 @@ struct TileConstants {
   ConstantSets edges, strengths;  ///< of edge_columns and strength_columns
 };
 
+struct FaceTiles;
+
 /// What a tile remembers of the faces in its first chunks, of steps n and n - 1 in turn
 /// (FaceTiles::now). Those in the others sleep, or have just been listed: they have carried
 /// nothing and done no work.
-struct FaceTiles;
 struct TileNumbers {
   Id first_chunk = 0;           ///< that of the tile
   Id chunks = 0;                ///< of how many it remembers anything

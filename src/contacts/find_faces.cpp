@@ -156,7 +156,8 @@ void retire(FaceSet& next, const FaceSet& old, std::size_t k) {
 }
 
 /// Fills what follows from the edges of the faces but for the constants of each of them.
-void complete_list(FaceSet& c, const BlockSet& b) {
+void complete_list(FaceSet& c, const BlockSet& b, const LawTable& laws) {
+  c.slip_laws = laws.any_changes;
   const std::size_t n = c.size();
   c.edge_end.resize(n);
   c.facing_end.resize(n);
@@ -190,8 +191,7 @@ void complete_faces(FaceSet& c, const BlockSet& b, const LawTable& laws) {
     fill_constants_of_edges(c, b, k);
     fill_constants_of_law(c, b, laws, k);
   }
-  c.slip_laws = laws.any_changes;
-  complete_list(c, b);
+  complete_list(c, b, laws);
 }
 
 void note_list(FaceSet& c, const Pose& pose, const Reach& reach) {
@@ -243,8 +243,7 @@ std::vector<Id> renew_faces(FaceSet& faces, const BlockSet& b, const State& stat
   for (std::size_t k = 0; k < faces.size(); ++k) {
     if (stays[k] == 0) retire(next, faces, k);
   }
-  complete_list(next, b);
-  next.slip_laws = laws.any_changes;
+  complete_list(next, b, laws);
   next.dashpots = copies ? dashpots_work(next.now) : faces.dashpots;
   next.rebuilds = faces.rebuilds;
   note_list(next, pose, reach);

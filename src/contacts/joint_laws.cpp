@@ -58,14 +58,7 @@ InForce in_force(const FaceSet& c, const LawTable& laws, const FaceFields<double
 /// Finds what follows from the corners at n.
 void complete(const FaceSet& c, const BlockSet& b, const Pose& pose, FaceAtN& at_n, std::size_t k) {
   if (at_n.complete) return;
-  const Face face = face_at(c, b, pose.x1, pose.y1, k);
-  FaceFields<double>& m = at_n.state;
-  m.closure_a = face.closure.a;
-  m.closure_b = face.closure.b;
-  m.normal_a = face.normal.a;
-  m.normal_b = face.normal.b;
-  m.length = std::max(face.length, 0.0);
-  m.cohesive = face.cohesive;
+  take_element(at_n.state, face_at(c, b, pose.x1, pose.y1, k));
   at_n.complete = true;
 }
 

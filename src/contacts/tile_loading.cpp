@@ -97,7 +97,7 @@ void load_memory(FaceTiles& t, const FaceSet& c, const FaceMemory& m, const std:
 }
 
 bool slides(const FaceMemory& m, std::size_t k) {
-  return is_cut(m.trial_a[k], m.slip_a[k]) || is_cut(m.trial_b[k], m.slip_b[k]);
+  return is_cut(FaceEnds{m.trial_a[k], m.trial_b[k]}, FaceEnds{m.slip_a[k], m.slip_b[k]});
 }
 /// Whether face k stored energy at n - 1 and stores none now.
 bool opens(const FaceSet& c, std::size_t k) {

@@ -78,18 +78,7 @@ FaceRow face_row(const FaceSet& c, const FaceTiles& t, const BlockSet& b, const 
   if (face.gate > 0.0 && !t.remembers(lane_bits::on, k)) return row;
   FaceFields<double>& m = row.state;
   m = remembered(t, t.now, k);
-  m.closure_a = face.closure.a;
-  m.closure_b = face.closure.b;
-  m.energy = face.energy;
-  m.normal_a = face.normal.a;
-  m.normal_b = face.normal.b;
-  m.length = larger(face.length, 0.0);
-  m.cohesive = face.cohesive;
-  m.gate = face.gate;
-  m.xi_a = face.xi.a;
-  m.xi_b = face.xi.b;
-  m.eta_a = face.eta.a;
-  m.eta_b = face.eta.b;
+  take_element(m, face);
   row.force =
       force_of<true, true>(face, stands, {m.shear_a, m.shear_b}, {m.damping_a, m.damping_b},
                            {m.shear_damping_a, m.shear_damping_b}, ends_at_bounds(face, pair));

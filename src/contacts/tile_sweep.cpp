@@ -4,7 +4,6 @@
 #include <array>
 
 #include "contacts/chunk_loops.hpp"
-#include "contacts/tile_columns.hpp"
 #include "contacts/tile_edges.hpp"
 #include "contacts/tile_sleep.hpp"
 
@@ -141,9 +140,6 @@ ChunkFound evaluate_standing(FaceTiles& t, ChunkView& view, const ChunkEdges& ed
   }
   const ChunkFound found = evaluate_chunk(t, view, q, overlaps_known);
   keep(t, q, found);
-  if (t.slip_laws)
-    std::copy_n(view.pressures, pressure_columns * lanes,
-                chunk_of<PressureColumns<double>>(t, t.now, q));
   return found;
 }
 

@@ -46,15 +46,14 @@ std::size_t corners_of(const BlockSet& b, Id i) {
 }
 
 /// Both free, not cut out of the opening itself, and pressed or bonded at the start.
-bool counts(const Simulation& sim, std::size_t k, Index opening) {
+bool counts(const Simulation& sim, const FaceRow& row, Index opening) {
   const BlockSet& b = sim.scene->blocks;
-  const FaceSet& f = sim.motion.contacts;
-  const Id i = block_of_edge(b, f, k), j = block_of_facing(b, f, k);
+  const Id i = block_of_edge(b, row.of, row.k), j = block_of_facing(b, row.of, row.k);
   const auto stays = [&](Id block) {
     return is_free(b, sim.motion.state, block) &&
            (b.opening.empty() || b.opening[block] != opening);
   };
-  return stays(i) && stays(j) && meets(face_row(sim, k));
+  return stays(i) && stays(j) && meets(row);
 }
 
 /// Whether a joint beside a wall that carries this stress along it can hold blocks together,
@@ -90,8 +89,9 @@ LockedOpening around(const Simulation& sim, std::size_t row) {
   const Vec2 centre = hole.centroid - b.origin;
   double length = 0.0, area = 0.0, bends = 0.0, held = 0.0, can_bend = 0.0;
   for (std::size_t k = 0; k < f.size(); ++k) {
-    if (norm(middle_of(face_row(sim, k), sim.motion.pose) - centre) > 2.0 * o.radius) continue;
-    if (!counts(sim, k, static_cast<Index>(row))) continue;
+    const FaceRow face = face_row(sim, k);
+    if (norm(middle_of(face, sim.motion.pose) - centre) > 2.0 * o.radius) continue;
+    if (!counts(sim, face, static_cast<Index>(row))) continue;
     const Id i = block_of_edge(b, f, k), j = block_of_facing(b, f, k);
     const double l = std::min(b.edge_length[f.edge[k]], b.edge_length[f.facing[k]]);
     const StiffnessRatio ratio = stiffness_ratio(b, f, k);
@@ -139,7 +139,8 @@ std::vector<Row> rows_of(const Simulation& sim) {
   const FaceSet& f = sim.motion.contacts;
   std::vector<Row> rows(b.size());
   for (std::size_t k = 0; k < f.size(); ++k) {
-    if (!meets(face_row(sim, k))) continue;
+    const FaceRow face = face_row(sim, k);
+    if (!meets(face)) continue;
     const Id pair[2] = {block_of_edge(b, f, k), block_of_facing(b, f, k)};
     for (int side = 0; side < 2; ++side) {
       Row& row = rows[pair[side]];
@@ -148,7 +149,7 @@ std::vector<Row> rows_of(const Simulation& sim) {
         continue;
       }
       row.other[row.joints] = pair[1 - side];
-      row.middle[row.joints++] = middle_of(face_row(sim, k), sim.motion.pose);
+      row.middle[row.joints++] = middle_of(face, sim.motion.pose);
       const double l = std::min(b.edge_length[f.edge[k]], b.edge_length[f.facing[k]]);
       row.stiffness += 0.5 * bending_ratio(sim, k, pair[side], b.area[pair[side]] / l);
     }

@@ -234,7 +234,7 @@ BlockStress block_stress(const Simulation& sim, const State& s, std::size_t i) {
 }
 
 double force_scale(const Simulation& sim, const std::vector<Id>& blocks) {
-  return force_scale(sim, blocks, normal_forces(sim, measure_faces(sim).normal));
+  return force_scale(sim, blocks, normal_forces(sim, normal_forces_now(sim)));
 }
 
 double force_scale(const Simulation& sim, const std::vector<Id>& blocks,
@@ -254,7 +254,7 @@ double force_scale(const Simulation& sim, const std::vector<Id>& blocks,
 }
 
 double unbalanced_ratio(const Simulation& sim, const Instant& at) {
-  return unbalanced_ratio(sim, at, normal_forces(sim, measure_faces(sim).normal));
+  return unbalanced_ratio(sim, at, normal_forces(sim, normal_forces_now(sim)));
 }
 
 double unbalanced_ratio(const Simulation& sim, const Instant& at, const NormalForces& contacts) {

@@ -26,7 +26,7 @@ struct NormalForces {
   std::size_t ends = 0;  ///< on how many ends of faces, or points, they act
   double size = 0.0;     ///< the sum of all sizes
 };
-/// of_faces: FaceMeasures::normal.
+/// of_faces: normal_forces_now().
 NormalForces normal_forces(const Simulation& sim, const std::vector<double>& of_faces);
 
 }  // namespace edda

@@ -72,7 +72,7 @@ EnergyBalance energy_balance(const Simulation& sim, const FaceMeasures& faces) {
     return ordered_sum(b.size(), [&](std::size_t i) { return is_free(b, s, i) ? term(i) : 0.0; });
   };
   const auto over_faces = [&](double FaceWork::*taken) {
-    return ordered_sum(c.size(), [&](std::size_t k) { return work_now(sim, k).*taken; });
+    return ordered_sum(c.size(), [&](std::size_t k) { return faces.work[k].*taken; });
   };
   const auto in_faces = [&](std::size_t k) { return faces.energy[k]; };
   const std::vector<double>& damped = accounts.damping_work.joules;

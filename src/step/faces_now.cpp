@@ -74,6 +74,17 @@ bool has_opened(const Simulation& sim, std::size_t k) {
   return sim.leapfrog.tiled.tiles.has_ever(lane_bits::opens, k);
 }
 
+bool is_closed_now(const Simulation& sim, std::size_t k) {
+  const FaceSet& c = sim.motion.contacts;
+  if (!sim.leapfrog.tiled.ahead) return is_closed(c, k);
+  const FaceTiles& t = sim.leapfrog.tiled.tiles;
+  return t.remembers(lane_bits::stored, k) || (c.bonded[k] > 0.0 && t.remembers(lane_bits::on, k));
+}
+
+namespace {
+
+constexpr std::size_t cost_of_a_face = 100 / seldom;  // ns, of closed faces and open ones
+
 FaceWork work_now(const Simulation& sim, std::size_t k) {
   const FaceSet& c = sim.motion.contacts;
   const FaceTiles& t = sim.leapfrog.tiled.tiles;
@@ -87,17 +98,6 @@ FaceWork work_now(const Simulation& sim, std::size_t k) {
   return {sums.friction_work, sums.damping_work, c.fracture_work[k], sums.transfer,
           fresh ? get<FaceWorkColumns<double>>(t, t.now, place).damping_due : 0.0};
 }
-
-bool is_closed_now(const Simulation& sim, std::size_t k) {
-  const FaceSet& c = sim.motion.contacts;
-  if (!sim.leapfrog.tiled.ahead) return is_closed(c, k);
-  const FaceTiles& t = sim.leapfrog.tiled.tiles;
-  return t.remembers(lane_bits::stored, k) || (c.bonded[k] > 0.0 && t.remembers(lane_bits::on, k));
-}
-
-namespace {
-
-constexpr std::size_t cost_of_a_face = 100 / seldom;  // ns, of closed faces and open ones
 
 /// Normal force of face k, which is in tiles and is this element now, N.
 double normal_of(const Simulation& sim, const Face& face, std::size_t k) {
@@ -128,12 +128,18 @@ double normal_force_now(const Simulation& sim, std::size_t k) {
   return normal_now(sim, k).force;
 }
 
+std::vector<double> normal_forces_now(const Simulation& sim) {
+  return of_all_faces<double>(sim, [&](std::size_t k) { return normal_force_now(sim, k); });
+}
+
 FaceMeasures measure_faces(const Simulation& sim) {
   const FaceSet& c = sim.motion.contacts;
   const FaceTiles& t = sim.leapfrog.tiled.tiles;
   const BlockSet& b = sim.scene->blocks;
-  FaceMeasures all{std::vector<double>(c.size(), 0.0), std::vector<double>(c.size(), 0.0)};
+  FaceMeasures all{std::vector<double>(c.size(), 0.0), std::vector<double>(c.size(), 0.0),
+                   std::vector<FaceWork>(c.size())};
   const auto measure = [&](std::size_t k) {
+    all.work[k] = work_now(sim, k);
     if (!sim.leapfrog.tiled.ahead) {
       all.normal[k] = normal_now(sim, k).force;
       all.energy[k] = face_energy(c, b, sim.motion.pose, k);

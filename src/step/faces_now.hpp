@@ -19,19 +19,19 @@ FaceRow face_row(const Simulation& sim, std::size_t k);
 /// Whether it has opened after having been closed.
 bool has_opened(const Simulation& sim, std::size_t k);
 
-/// Of all faces, [nf]: normal force, N, as normal_force_now(), and energy stored between steps n -
-/// 1 and n, J.
-struct FaceMeasures {
-  std::vector<double> normal, energy;
-};
-FaceMeasures measure_faces(const Simulation& sim);
-
 /// Work of face k accumulated until step n - 1, and that of its dashpots at n - 1 which they do
 /// last, J.
 struct FaceWork {
   double friction, damping, fracture, transfer, damping_due;
 };
-FaceWork work_now(const Simulation& sim, std::size_t k);
+
+/// What a row of history.csv needs of all faces, [nf] each.
+struct FaceMeasures {
+  std::vector<double> normal;  ///< N, as normal_force_now()
+  std::vector<double> energy;  ///< stored between steps n - 1 and n, J
+  std::vector<FaceWork> work;
+};
+FaceMeasures measure_faces(const Simulation& sim);
 
 /// As is_closed() of contacts/face_reading.hpp.
 bool is_closed_now(const Simulation& sim, std::size_t k);
@@ -39,6 +39,7 @@ bool is_closed_now(const Simulation& sim, std::size_t k);
 /// Normal force of face k, N, positive in compression, that of its dashpots included; 0 where it is
 /// not closed.
 double normal_force_now(const Simulation& sim, std::size_t k);
+std::vector<double> normal_forces_now(const Simulation& sim);  ///< [nf]
 
 /// Across a face; 0 where it is not closed.
 struct NormalNow {

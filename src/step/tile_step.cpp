@@ -273,8 +273,7 @@ class FacesInTiles : public FaceAccess {
 }  // namespace
 
 bool steps_in_tiles(const Simulation& sim) {
-  const TiledFaces& own = sim.leapfrog.tiled;
-  return own.use;
+  return sim.leapfrog.tiled.use;
 }
 
 namespace {
