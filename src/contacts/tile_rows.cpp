@@ -79,9 +79,11 @@ FaceRow face_row(const FaceSet& c, const FaceTiles& t, const BlockSet& b, const 
   FaceFields<double>& m = row.state;
   m = remembered(t, t.now, k);
   take_element(m, face);
-  row.force =
-      force_of<true, true>(face, stands, {m.shear_a, m.shear_b}, {m.damping_a, m.damping_b},
-                           {m.shear_damping_a, m.shear_damping_b}, ends_at_bounds(face, pair));
+  const FaceEnds shear{m.shear_a, m.shear_b}, bounds = ends_at_bounds(face, pair);
+  // The formula of the step: with and without dashpots the sums round differently.
+  row.force = t.dashpots ? force_of<true, true>(face, stands, shear, {m.damping_a, m.damping_b},
+                                                {m.shear_damping_a, m.shear_damping_b}, bounds)
+                         : force_of<false, true>(face, stands, shear, {}, {}, bounds);
   return row;
 }
 
