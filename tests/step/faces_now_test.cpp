@@ -78,7 +78,8 @@ void compare_faces(const std::string& contact_damping) {
     }
     update_face_rows(sim);
     for (std::size_t k = 0; k < states.size(); ++k) {
-      const FaceRow row = face_row(sim, k);
+      FaceRow row = face_row(sim, k);
+      if (row.state.spring == 0.0) row.state.overlap = 0.0;  // of springs that are not there
       for (const auto& field : face_fields<double>)
         ASSERT_EQ(states[k].*field.values, row.state.*field.values) << field.name << k;
       for (const auto corner :
