@@ -27,6 +27,7 @@ struct ChunkColumns : EdgeConstants<const double*>, StrengthConstants<const doub
   StandColumns<double*> stands;
   OverlapColumns<double*> overlaps;
   PressureColumns<double*> pressures;
+  LimitColumns<const double*> limits;
   const Records *e, *f, *e_then, *f_then, *mass_e, *mass_f;
   LaneBits was;
   double per_step, noise, bond_strength;
@@ -39,6 +40,7 @@ template <Tables tables>
 EDDA_INLINE ChunkColumns columns_of(const ChunkView& v) {
   ChunkColumns c{columns_from<EdgeConstants<const double*>>(v.edges),
                  columns_from<StrengthConstants<const double*>>(v.strengths),
+                 {},
                  {},
                  {},
                  {},

@@ -96,7 +96,7 @@ EDDA_INLINE void write_overlap(const ChunkColumns& c, std::size_t k) {
 }
 
 /// books: with the corners at n and n - 1, of which only the work of the step follows.
-template <bool dashpots, bool books>
+template <bool dashpots, bool books, bool limited = false>
 EDDA_INLINE FaceInputs inputs_of(const ChunkColumns& c, std::size_t k) {
   const LaneBits bit = bit_of_lane[k];
   const auto was = [&](unsigned of) { return (c.was & (bit << of)) != 0; };
@@ -127,7 +127,7 @@ EDDA_INLINE FaceInputs inputs_of(const ChunkColumns& c, std::size_t k) {
           mass_of(c.mass_f),
           c.per_step,
           c.noise,
-          {}};
+          limited ? FaceEnds{c.limits.a[k], c.limits.b[k]} : FaceEnds{}};
 }
 
 template <bool dashpots>
@@ -194,14 +194,14 @@ struct ChunkTruths {
 };
 constexpr unsigned touches = 32, carried = 40, is_free = 48;  ///< of `state`
 
-template <bool dashpots, Formulas use, bool books>
+template <bool dashpots, Formulas use, bool books, bool limited>
 EDDA_INLINE void evaluate_lane(const ChunkColumns& c, std::size_t k, Records& on_e, Records& on_f,
                                LaneBits& state, LaneBits& found, double& deepest) {
-  const FaceInputs in = inputs_of<dashpots, books>(c, k);
+  const FaceInputs in = inputs_of<dashpots, books, limited>(c, k);
   const EdgeGeometry stands = geometry_of(c, in.pair, k);
   const OverlapEnds overlap = overlap_of<use>(c, stands, in.pair, k);
   const Face face = face_between<use>(stands, overlap, in.pair);
-  const FaceStep s = step_of_face<dashpots, false, use, books>(in, stands, face);
+  const FaceStep s = step_of_face<dashpots, limited, use, books>(in, stands, face);
   write_memory<dashpots>(c, s, k);
   if constexpr (books) write_work(c, face, s, k);
   write_forces(on_e, on_f, s.force, k);
@@ -244,15 +244,16 @@ EDDA_INLINE ChunkFound conclude(LaneBits was, const ChunkTruths& is, bool dashpo
 }
 
 /// Stores the forces unless the chunk must be evaluated in another way.
-template <bool dashpots, Formulas use, bool books>
+template <bool dashpots, Formulas use, bool books, bool limited = false>
 EDDA_INLINE ChunkFound evaluate_lanes(const ChunkView& given) {
-  const ChunkColumns c = columns_of<dashpots>(given);  // a copy that no store can change
+  ChunkColumns c = columns_of<dashpots>(given);  // a copy that no store can change
+  if constexpr (limited) c.limits = columns_from<LimitColumns<const double*>>(given.limits);
   Records on_e, on_f;
   LaneBits state = 0, found = 0;
   double deepest = 0.0;
 #pragma omp simd reduction(| : state, found) reduction(max : deepest)
   for (std::size_t k = 0; k < lanes; ++k) {
-    evaluate_lane<dashpots, use, books>(c, k, on_e, on_f, state, found, deepest);
+    evaluate_lane<dashpots, use, books, limited>(c, k, on_e, on_f, state, found, deepest);
   }
   const ChunkFound all = conclude(c.was, {state, found, deepest}, dashpots);
   const LaneBits unfit = (use == Formulas::plain ? lane_bits::field(lane_bits::rare) : 0) |
@@ -283,6 +284,7 @@ SweepTables tables_of(FaceTiles& t, std::size_t tile, double* on, double step,
           .pressures = t.slip_laws ? numbers.pressures[now].data() : nullptr,
           .record_e = t.record_e.data(),
           .record_f = t.record_f.data(),
+          .limits = t.limits.empty() ? nullptr : t.limits.data(),
           .was = t.bits[old].data(),
           .on = on,
           .per_step = 1.0 / step,
@@ -330,6 +332,13 @@ EDDA_VECTOR ChunkFound evaluate_plain_with_work(const ChunkView& c) {
 }
 EDDA_VECTOR ChunkFound evaluate_plain_damped(const ChunkView& c) {
   return evaluate_lanes<true, Formulas::plain, true>(c);
+}
+
+EDDA_VECTOR ChunkFound evaluate_limited(const ChunkView& c) {
+  return evaluate_lanes<false, Formulas::all, true, true>(c);
+}
+EDDA_VECTOR ChunkFound evaluate_limited_damped(const ChunkView& c) {
+  return evaluate_lanes<true, Formulas::all, true, true>(c);
 }
 
 EDDA_VECTOR ChunkFound look_at(const ChunkView& given) {

@@ -37,8 +37,9 @@ struct SweepTables {
   double* work;       ///< FaceWorkColumns
   double* pressures;  ///< PressureColumns; null where they are not kept
   const Id *record_e, *record_f;
-  const LaneBits* was;  ///< [chunks]
-  double* on;           ///< records of the forces on the edges
+  const double* limits;  ///< LimitColumns, of all chunks; null: none are given
+  const LaneBits* was;   ///< [chunks]
+  double* on;            ///< records of the forces on the edges
   double per_step, noise;
   double bond_strength;  ///< FaceSet::bond_strength
 };
@@ -56,6 +57,7 @@ struct ChunkView {
   std::size_t chunk;
   const double *edges, *strengths, *before, *damped_before;
   double *memory, *damped, *work;
+  const double* limits;                   ///< LimitColumns, or null
   double *stands, *overlaps, *pressures;  ///< StandColumns, OverlapColumns, PressureColumns
   const Records *e, *f;                   ///< the edges
   const Records *e_then = &no_corners, *f_then = &no_corners;
@@ -83,6 +85,7 @@ inline ChunkView view_of(const SweepTables& t, std::size_t chunk, double* stands
     view.damped_before = t.damped_before + n * dashpot_memory_columns * lanes;
     view.damped = t.damped + n * dashpot_memory_columns * lanes;
   }
+  if (t.limits != nullptr) view.limits = t.limits + chunk * limit_columns * lanes;
   view.stands = stands;
   view.overlaps = overlaps;
   view.pressures = t.pressures != nullptr ? t.pressures + n * pressure_columns * lanes : pressures;
@@ -122,6 +125,9 @@ ChunkFound evaluate_plain_with_work(const ChunkView& chunk);
 ChunkFound evaluate_bonded_damped(const ChunkView& chunk);
 ChunkFound evaluate_damped(const ChunkView& chunk);
 ChunkFound evaluate_plain_damped(const ChunkView& chunk);
+/// By all formulas, with work, and with given limits of shear.
+ChunkFound evaluate_limited(const ChunkView& chunk);
+ChunkFound evaluate_limited_damped(const ChunkView& chunk);
 
 /// Updates the corners of faces that have carried nothing for two steps. `decides` of what is
 /// found: one needs more than that.

@@ -21,7 +21,6 @@ struct AllFaces {
   const double *point_inverse, *edge_inverse;
   double step;
   const double *limit_a, *limit_b;
-  bool decided;  ///< activity has been decided, and bonds have been broken, at these positions
 };
 AllFaces all_faces(const FaceSet& c, const FaceScene& scene, double step,
                    const ShearLimits* limits = nullptr) {
@@ -37,8 +36,7 @@ AllFaces all_faces(const FaceSet& c, const FaceScene& scene, double step,
           scene.masses.edge_inverse.data(),
           step,
           limits == nullptr ? nullptr : limits->a.data(),
-          limits == nullptr ? nullptr : limits->b.data(),
-          false};
+          limits == nullptr ? nullptr : limits->b.data()};
 }
 
 /// Addresses of the data of a chunk.
@@ -96,14 +94,7 @@ EDDA_INLINE void evaluate_into(const FaceView& c, std::size_t k, double& decidin
   const Face face = face_between(stands, in.pair);
   const FaceStep s = step_of_face<dashpots, limits_given, Formulas::all>(in, stands, face);
   write_face<dashpots>(c, face, s, k);
-  c.force[8 * k + 0] = s.force.p1.x;
-  c.force[8 * k + 1] = s.force.p1.y;
-  c.force[8 * k + 2] = s.force.p2.x;
-  c.force[8 * k + 3] = s.force.p2.y;
-  c.force[8 * k + 4] = s.force.q1.x;
-  c.force[8 * k + 5] = s.force.q1.y;
-  c.force[8 * k + 6] = s.force.q2.x;
-  c.force[8 * k + 7] = s.force.q2.y;
+  put(c.force + 8 * k, s.force);
   deciding = larger(deciding, s.decides ? 1.0 : 0.0);
   switching = larger(switching, s.switching ? 1.0 : 0.0);
   working = larger(working, s.works ? 1.0 : 0.0);
@@ -208,7 +199,6 @@ ChunkResult evaluate_part(const FaceSet& c, const AllFaces& all, const ChunkPlac
 ChunkResult evaluate_with_laws(FaceSet& c, const AllFaces& all, const FaceScene& scene,
                                const ChunkPlace& at, std::size_t first, std::size_t last) {
   ChunkResult found = evaluate_part(c, all, at, first, last);
-  if (all.decided) return found;
   const FaceView view = view_of(all, at);
   if (found.decides) {
     bool changes = false;
@@ -311,12 +301,6 @@ void count_failures(FaceSet& c) {
 
 void evaluate_faces(FaceSet& c, const FaceScene& scene, double step) {
   evaluate_all(c, all_faces(c, scene, step), scene);
-}
-
-void evaluate_as_decided(FaceSet& c, const FaceScene& scene, double step) {
-  AllFaces all = all_faces(c, scene, step);
-  all.decided = true;
-  evaluate_all(c, all, scene);
 }
 
 void evaluate_with_limits(FaceSet& c, const FaceScene& scene, double step,

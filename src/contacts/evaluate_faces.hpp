@@ -22,9 +22,6 @@ struct FaceScene {
 /// be called again for other positions of the same step. step: from n - 1 to n, s, for dashpots.
 void evaluate_faces(FaceSet& faces, const FaceScene& scene, double step);
 
-/// The same where all has been decided at these positions: fills `now` and the forces alone.
-void evaluate_as_decided(FaceSet& faces, const FaceScene& scene, double step);
-
 /// evaluate_faces() for one face.
 void evaluate_face(FaceSet& faces, const FaceScene& scene, double step, std::size_t k);
 

@@ -34,6 +34,17 @@ namespace edda {
 struct CornerForces {
   Vec2 p1, p2, q1, q2;
 };
+/// Writes them as eight numbers, x and y of each corner.
+EDDA_INLINE void put(double* to, const CornerForces& f) {
+  to[0] = f.p1.x;
+  to[1] = f.p1.y;
+  to[2] = f.p2.x;
+  to[3] = f.p2.y;
+  to[4] = f.q1.x;
+  to[5] = f.q1.y;
+  to[6] = f.q2.x;
+  to[7] = f.q2.y;
+}
 
 /// Components of the forces on the corners along t and n, N.
 struct FrameForces {

@@ -302,6 +302,18 @@ struct FaceSet : ChunkTable<FaceProperties<ChunkColumn>, face_property_list<Chun
   }
 };
 
+/// The properties of face k.
+inline FaceProperties<double> properties_of(const FaceSet& c, std::size_t k) {
+  FaceProperties<double> row;
+  for (std::size_t i = 0; i < std::size(face_properties); ++i)
+    row.*face_property_list<double>[i].values = (c.*face_properties[i].values)[k];
+  return row;
+}
+inline void set_properties(FaceSet& c, std::size_t k, const FaceProperties<double>& row) {
+  for (std::size_t i = 0; i < std::size(face_properties); ++i)
+    (c.*face_properties[i].values)[k] = row.*face_property_list<double>[i].values;
+}
+
 /// FacePair::length_ratio of face k.
 template <class Faces>
 EDDA_INLINE double length_ratio(const Faces& c, std::size_t k) {

@@ -78,6 +78,13 @@ struct FaceWorkColumns {
 };
 inline constexpr std::size_t work_columns = sizeof(FaceWorkColumns<double>) / sizeof(double);
 
+/// Limits of the shear forces at the ends for a whole step of the implicit method, N.
+template <class C>
+struct LimitColumns {
+  C a, b;
+};
+inline constexpr std::size_t limit_columns = sizeof(LimitColumns<double>) / sizeof(double);
+
 /// Work accumulated until step n - 1, J. Members as in FaceProperties.
 template <class C>
 struct FaceSumColumns {
@@ -235,7 +242,8 @@ struct FaceTiles {
   std::vector<LaneBits> bits[2];     ///< [chunks] of steps n and n - 1 in turn
   std::vector<LaneBits> found[2];    ///< [chunks] of that step
   AlignedNumbers sums;               ///< [chunks][sum_columns][8]
-  std::vector<LaneBits> ever;        ///< [chunks] `opens`, `slides` of any step until n - 1
+  AlignedNumbers limits;  ///< [chunks][2][8] ShearLimits; empty: they follow from normal forces
+  std::vector<LaneBits> ever;   ///< [chunks] `opens`, `slides` of any step until n - 1
   std::vector<double> deepest;  ///< [chunks] as FaceStep::depth, largest in the step so far, m;
                                 ///< of a new list an upper bound of that
   int now = 0;                  ///< which of the two is that of step n

@@ -70,7 +70,8 @@ void update_joint_laws(FaceSet& c, FaceTiles& t, const BlockSet& b, const Pose& 
                  [&](std::size_t tile, char&) { load_changed(t, c, pose, tile, changed); });
 }
 
-void glue_pressed(FaceSet& c, FaceTiles& t, const BlockSet& b, const Pose& pose) {
+void glue_pressed(FaceSet& c, FaceTiles& t, const BlockSet& b, const std::vector<double>& x,
+                  const std::vector<double>& y) {
   std::vector<Id> glued;
   for (std::size_t q = 0; q < t.chunks(); ++q) {
     const LaneBits pressed =
@@ -79,7 +80,7 @@ void glue_pressed(FaceSet& c, FaceTiles& t, const BlockSet& b, const Pose& pose)
       if (!lane_bits::test(pressed, 0, lane)) continue;
       const Id k = t.face[q * lanes + lane];
       if (c.glued[k] > 0.0) continue;
-      if (glue_if_whole(c, face_at(c, b, pose.x1, pose.y1, k).closure, k)) glued.push_back(k);
+      if (glue_if_whole(c, face_at(c, b, x, y, k).closure, k)) glued.push_back(k);
     }
   }
   for (const Id k : glued) {

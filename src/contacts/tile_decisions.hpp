@@ -11,8 +11,9 @@ namespace edda {
 void update_joint_laws(FaceSet& faces, FaceTiles& tiles, const BlockSet& blocks, const Pose& pose,
                        const LawTable& laws);
 
-/// Glues the faces that have been pressed for a whole step and are closed from end to end at n,
-/// which FaceTiles::now still is (glue_if_whole()); pose: x1 and y1 at n.
-void glue_pressed(FaceSet& faces, FaceTiles& tiles, const BlockSet& blocks, const Pose& pose);
+/// Glues the faces that have been pressed for a whole step and are closed from end to end at its
+/// end (glue_if_whole()), which FaceTiles::now is; x, y: the vertices then.
+void glue_pressed(FaceSet& faces, FaceTiles& tiles, const BlockSet& blocks,
+                  const std::vector<double>& x, const std::vector<double>& y);
 
 }  // namespace edda

@@ -126,14 +126,6 @@ void load_work(FaceTiles& t, const FaceSet& c, int which, std::size_t place, std
   set_bit(t.found[which][q], lane_bits::slides, place % lanes, slides(m, k));
 }
 
-/// The accumulated work of face k.
-void load_sums(FaceTiles& t, const FaceSet& c, std::size_t place, std::size_t k) {
-  put(t.sums, place, FaceSumColumns<double>{c.friction_work[k], c.transfer[k], c.damping_work[k]});
-  const std::size_t q = place / lanes;
-  set_bit(t.ever[q], lane_bits::opens, place % lanes, c.opened[k] > 0.0);
-  set_bit(t.ever[q], lane_bits::slides, place % lanes, c.slipped[k] > 0.0);
-}
-
 bool remembers(const FaceMemory& m, std::size_t k) {
   return m.energy[k] > 0.0 || m.spring[k] > 0.0 || m.slip_a[k] != 0.0 || m.slip_b[k] != 0.0;
 }
@@ -167,6 +159,13 @@ void load_copy(FaceTiles& t, const FaceSet& c, const Pose& pose, std::size_t pla
 }
 
 }  // namespace
+
+void load_sums(FaceTiles& t, const FaceSet& c, std::size_t place, std::size_t k) {
+  put(t.sums, place, FaceSumColumns<double>{c.friction_work[k], c.transfer[k], c.damping_work[k]});
+  const std::size_t q = place / lanes;
+  set_bit(t.ever[q], lane_bits::opens, place % lanes, c.opened[k] > 0.0);
+  set_bit(t.ever[q], lane_bits::slides, place % lanes, c.slipped[k] > 0.0);
+}
 
 void load_correction(FaceTiles& t, const FaceSet& c, const FaceFields<double>& before,
                      std::size_t k) {

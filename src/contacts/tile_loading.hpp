@@ -32,6 +32,9 @@ void load_constants(FaceTiles& tiles, const FaceSet& faces, const BlockSet& bloc
 void load_correction(FaceTiles& tiles, const FaceSet& faces, const FaceFields<double>& before,
                      std::size_t k);
 
+/// The accumulated work of face k, of which a copy is at a place.
+void load_sums(FaceTiles& tiles, const FaceSet& faces, std::size_t place, std::size_t k);
+
 /// Coordinates of the corners of the face at a place, at step n (which = FaceTiles::now) or n - 1.
 void load_corners(FaceTiles& tiles, const EdgeCoordinates& at, int which, std::size_t place);
 

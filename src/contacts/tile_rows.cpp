@@ -8,10 +8,7 @@
 #include "contacts/tile_columns.hpp"
 
 namespace edda {
-namespace {
 
-/// What the tiles remember of face k at that step. Of energy, gate and closures they know only
-/// whether they are above zero: 1 stands for that.
 FaceFields<double> remembered(const FaceTiles& t, int which, std::size_t k) {
   const Id place = t.place[k][0];
   const auto memory = get<FaceMemoryColumns<double>>(t, which, place);
@@ -56,8 +53,6 @@ FaceFields<double> remembered(const FaceTiles& t, int which, std::size_t k) {
   m.damping_due = work.damping_due;
   return m;
 }
-
-}  // namespace
 
 FaceFields<double> remembered(const FaceTiles& t, std::size_t k) {
   return remembered(t, 1 - t.now, k);
@@ -117,62 +112,20 @@ bool stays_open(const FaceTiles& t, const FaceSet& c, const BlockSet& b, const P
   return !s.may_close && (s.gate > 0.0) == in.before.on;
 }
 
-namespace {
-
-/// Whether a face in each chunk of the list has acted, [chunks].
-std::vector<std::uint8_t> chunks_that_have_acted(const FaceSet& c, const FaceTiles& t) {
-  std::vector<std::uint8_t> have(c.chunks(), 0);
-  for (std::size_t q = 0; q < t.chunks(); ++q) {
-    if (t.idle[0][q] != 0 && t.idle[1][q] != 0 && t.bonds[q] == 0) continue;
-    for (std::size_t lane = 0; lane < lanes; ++lane) {
-      const Id k = t.face[q * lanes + lane];
-      if (k != no_id) have[k / FaceSet::chunk] = 1;
-    }
-  }
-  return have;
-}
-
-/// Of the faces of a chunk of which none has acted, whether their edges faced each other.
-void unload_open(FaceSet& c, const FaceTiles& t, std::size_t q) {
-  const std::size_t first = q * FaceSet::chunk, last = std::min(first + FaceSet::chunk, c.size());
-  for (std::size_t k = first; k < last; ++k) {
-    const Id place = t.place[k][0];
-    if (place == no_id) continue;
-    const LaneBits bits = t.bits[1 - t.now][place / lanes];
-    c.before.gate[k] = lane_bits::test(bits, lane_bits::on, place % lanes) ? 1.0 : 0.0;
-  }
-}
-
-/// A face that is new in the list has no state until its first step.
-void clear_new_faces(FaceSet& c, const FaceTiles& t) {
-  parallel_chunks(c.size(), FaceSet::run, 5, [&](std::size_t, std::size_t begin, std::size_t end) {
-    for (std::size_t k = begin; k < end; ++k) {
-      const Id place = t.place[k][0];
-      const bool on = place == no_id ||
-                      lane_bits::test(t.bits[t.now][place / lanes], lane_bits::on, place % lanes);
-      if (!on && c.now.gate[k] > 0.0) c.now.clear_row(k);
-    }
-  });
-}
-
-}  // namespace
-
-void unload_faces(FaceSet& c, const FaceTiles& t, const FaceScene& scene, double step) {
-  const std::vector<std::uint8_t> acted = chunks_that_have_acted(c, t);
+void unload_faces(FaceSet& c, const FaceTiles& t, const BlockSet& b, const Pose& pose) {
   c.clear_states();
-  parallel_chunks(c.size(), FaceSet::chunk, 60 / seldom,
-                  [&](std::size_t q, std::size_t begin, std::size_t end) {
-                    for (std::size_t k = begin; k < end; ++k) {
-                      if (t.place[k][0] != no_id) recall_work(c, t, k);
-                    }
-                    if (acted[q] == 0) return unload_open(c, t, q);
-                    c.now.inactive[q] = c.before.inactive[q] = 0;
-                    for (std::size_t k = begin; k < end; ++k) {
-                      if (t.place[k][0] != no_id) set_row(c.before, k, remembered(t, k));
-                    }
-                  });
-  evaluate_as_decided(c, scene, step);
-  clear_new_faces(c, t);
+  const auto unload = [&](std::size_t q, std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) {
+      if (t.place[k][0] == no_id) continue;
+      recall_work(c, t, k);
+      const FaceRow row = face_row(c, t, b, pose, k);
+      set_row(c.now, k, row.state);
+      set_row(c.before, k, remembered(t, k));
+      put(c.force.data() + 8 * k, row.force);
+    }
+    c.now.inactive[q] = c.before.inactive[q] = 0;
+  };
+  parallel_chunks(c.size(), FaceSet::chunk, 150, unload);
 }
 
 namespace {

@@ -2,7 +2,6 @@
 // which the step keeps up to date only what is decided.
 #pragma once
 
-#include "contacts/evaluate_faces.hpp"
 #include "contacts/face_reading.hpp"
 #include "contacts/face_tiles.hpp"
 
@@ -11,6 +10,8 @@ namespace edda {
 /// What the tiles remember of face k at n - 1, which is all that a step reads of it: 1 stands for
 /// an energy, a gate or a closure above 0.
 FaceFields<double> remembered(const FaceTiles& tiles, std::size_t k);
+/// The same of step n (which = FaceTiles::now) or n - 1.
+FaceFields<double> remembered(const FaceTiles& tiles, int which, std::size_t k);
 
 /// Face k at n, which FaceTiles::now is.
 FaceRow face_row(const FaceSet& faces, const FaceTiles& tiles, const BlockSet& blocks,
@@ -27,8 +28,7 @@ bool stays_open(const FaceTiles& tiles, const FaceSet& faces, const BlockSet& bl
                 const Pose& pose, std::size_t k);
 
 /// Fills `now`, what a step reads of `before`, and the forces of all faces, which have no states.
-/// step: from n - 1 to n, s.
-void unload_faces(FaceSet& faces, const FaceTiles& tiles, const FaceScene& scene, double step);
+void unload_faces(FaceSet& faces, const FaceTiles& tiles, const BlockSet& blocks, const Pose& pose);
 
 /// As next_step(): adds the work of step n to the accumulated work and makes its memory that of the
 /// step before.

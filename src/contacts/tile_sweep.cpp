@@ -57,6 +57,10 @@ ChunkFound evaluate_chunk(FaceTiles& t, const ChunkView& view, std::size_t q, bo
   const auto any = [](const ChunkFound& c, unsigned of) {
     return (c.found & lane_bits::field(of)) != 0;
   };
+  if (!t.limits.empty()) {
+    if (!overlaps_known) overlap_edges(view);
+    return t.dashpots ? evaluate_limited_damped(view) : evaluate_limited(view);
+  }
   const bool worked = t.fresh[1 - t.now][q] != 0;
   Formulas use = t.bonds[q] != 0   ? Formulas::all
                  : t.plain[q] != 0 ? Formulas::plain

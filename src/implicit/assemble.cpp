@@ -28,9 +28,9 @@ Directions on_both(const BlockSet& b, const FaceSet& c, std::size_t k, const Cor
 
 /// Closed, or so near that it may well close before the list is renewed. A contact from further
 /// away requires a new pattern.
-bool may_carry(const FaceSet& c, std::size_t k) {
-  const double near = c.reach / 6.0;
-  return is_closed(c, k) || (c.now.length[k] > 0.0 && closure_of(c, k) > -near);
+bool may_carry(const FaceRow& r) {
+  const double near = r.of.reach / 6.0;
+  return is_closed(r) || (r.state.length > 0.0 && closure_of(r) > -near);
 }
 
 /// Whether the matrix has a place for all of `columns`, and few more than these.
@@ -100,7 +100,8 @@ bool assemble_row(ImplicitSolver& s, const ImplicitScene& scene, const ImplicitS
 }  // namespace
 
 void set_pattern(ImplicitSolver& s, const ImplicitScene& scene, const State& state,
-                 const FaceSet& c) {
+                 const Pose& pose, const TrialFaces& of) {
+  const FaceSet& c = of.faces;
   const BlockSet& b = scene.blocks;
   const std::vector<Id> rows_before = std::move(s.block_of);
   s.row_of.assign(b.size(), no_id);
@@ -117,7 +118,7 @@ void set_pattern(ImplicitSolver& s, const ImplicitScene& scene, const State& sta
     list.push_back(static_cast<Id>(row));
     c.for_faces(b.vertex_begin[i], b.vertex_begin[i + 1], [&](Id k, bool of_edge) {
       const Id other = s.row_of[b.vertex_block[of_edge ? c.facing[k] : c.edge[k]]];
-      if (other != no_id && may_carry(c, k)) list.push_back(other);
+      if (other != no_id && may_carry(face_row(of, b, pose, k))) list.push_back(other);
     });
     std::sort(list.begin(), list.end());
     list.erase(std::unique(list.begin(), list.end()), list.end());
@@ -153,9 +154,11 @@ bool assemble(ImplicitSolver& s, const ImplicitScene& scene, const ImplicitSetti
 }
 
 double measure_residual(ImplicitSolver& s, const ImplicitScene& scene,
-                        const ImplicitSettings& settings, const State& state, const FaceSet& c,
-                        const NodalForces& forces) {
+                        const ImplicitSettings& settings, const State& state,
+                        const TiledFaces& faces, const NodalForces& forces) {
   const BlockSet& b = scene.blocks;
+  s.by_faces.assign(b.size(), 0.0);
+  add_sizes_of_forces(faces, b, s.by_faces);
   const double h = settings.step, a = settings.mass_damping, balance = settings.balance;
   const double gravity = norm(scene.gravity);
   s.residual.resize(s.matrix.lines());
@@ -170,11 +173,7 @@ double measure_residual(ImplicitSolver& s, const ImplicitScene& scene,
                      inertia = s.mass[i] * moved;
     const BodyVector left = force + viscous_force(s, scene, settings, state, row) - inertia;
     s.matrix.part(s.residual, row) = left;
-    double carried = b.mass[i] * gravity + force.norm() + inertia.norm();
-    c.for_faces(b.vertex_begin[i], b.vertex_begin[i + 1], [&](Id k, bool) {
-      const Vec2 on = force_on_facing(c, k);
-      carried += std::abs(on.x) + std::abs(on.y);
-    });
+    const double carried = b.mass[i] * gravity + force.norm() + inertia.norm() + s.by_faces[i];
     const double place = norm(centroid(state.x, state.y, i)) + b.radius[i];
     const double rounding = 1e-14 * place * s.stiffest[row];
     s.error[row] = left.norm() / (single * balance * carried + rounding + 1e-300);

@@ -10,7 +10,7 @@ namespace edda {
 /// Assigns rows to the free blocks, and sets the pattern of the matrix from the faces that may
 /// carry load.
 void set_pattern(ImplicitSolver& solver, const ImplicitScene& scene, const State& state,
-                 const FaceSet& faces);
+                 const Pose& pose, const TrialFaces& faces);
 
 /// Allocates the matrix for a given pattern, and computes the matrices of the blocks.
 void lay_out(ImplicitSolver& solver, const ImplicitScene& scene,
@@ -24,7 +24,7 @@ bool assemble(ImplicitSolver& solver, const ImplicitScene& scene, const Implicit
 /// included in f. Returns the largest ratio of the residual to its tolerance, of single blocks and
 /// of all together: up to 1 the step is in balance; NaN where a block has lost its shape.
 double measure_residual(ImplicitSolver& solver, const ImplicitScene& scene,
-                        const ImplicitSettings& settings, const State& state, const FaceSet& faces,
-                        const NodalForces& forces);
+                        const ImplicitSettings& settings, const State& state,
+                        const TiledFaces& faces, const NodalForces& forces);
 
 }  // namespace edda

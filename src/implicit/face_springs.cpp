@@ -8,6 +8,9 @@
 #include "contacts/face_energy.hpp"
 #include "contacts/face_reading.hpp"
 #include "contacts/face_step.hpp"
+#include "contacts/tile_decisions.hpp"
+#include "contacts/tile_loading.hpp"
+#include "contacts/tile_trials.hpp"
 
 namespace edda {
 namespace {
@@ -17,30 +20,37 @@ constexpr std::uint8_t closed_a = 1, closed_b = 2, slides_a = 4, slides_b = 8;
 /// Gap, as a part of the smaller block's size, up to which a face is expected to close.
 constexpr double touch = 1e-9;
 
+/// Time that the evaluation of one face takes, ns.
+constexpr std::size_t cost_of_a_face = 150;
+
 /// Spring energies at one instant, U and p_t u^2/2 of each end, J.
-double energy_of(const FaceMemory& m, std::size_t k) {
-  return m.energy[k] + 0.5 * m.spring[k] * (m.slip_a[k] * m.slip_a[k] + m.slip_b[k] * m.slip_b[k]);
+double energy_of(const FaceFields<double>& m) {
+  return m.energy + 0.5 * m.spring * (m.slip_a * m.slip_a + m.slip_b * m.slip_b);
 }
 
-double limit_of(const FaceSet& c, double normal, std::size_t k) {
-  if (c.bonded[k] > 0.0) return unlimited_shear;
-  const FaceMemory& m = c.before;
-  return coulomb_limit(0.5 * c.cohesion[k] * m.cohesive[k], c.friction[k], normal);
+void set_limits(FaceSprings& s, const TrialFaces& of, std::size_t k) {
+  const FaceSet& c = of.faces;
+  const double cohesion = 0.5 * c.cohesion[k] * s.cohesive[k];
+  const auto limit_of = [&](double normal) {
+    return c.bonded[k] > 0.0 ? unlimited_shear : coulomb_limit(cohesion, c.friction[k], normal);
+  };
+  s.limits.a[k] = limit_of(s.normal.a[k]);
+  s.limits.b[k] = limit_of(s.normal.b[k]);
+  limit_shear(of.tiled.tiles, {s.limits.a[k], s.limits.b[k]}, k);
 }
 
-void set_limits(FaceSprings& springs, const FaceSet& c, std::size_t k) {
-  const FaceMemory& m = c.before;
-  springs.limits.a[k] = limit_of(c, m.normal_a[k] + m.damping_a[k], k);
-  springs.limits.b[k] = limit_of(c, m.normal_b[k] + m.damping_b[k], k);
+/// Whether face k carries force, or would carry it at any displacement, at the last evaluation.
+bool touches(const TrialFaces& of, std::size_t k) {
+  return of.tiled.tiles.remembers(lane_bits::stored, k) || of.faces.bonded[k] > 0.0;
 }
 
-std::uint8_t state_of(const FaceSet& c, const FaceMemory& m, std::size_t k) {
-  if (!(m.energy[k] > 0.0) && c.bonded[k] == 0.0) return 0;
+/// The state of face k, which touches.
+std::uint8_t state_of(const FaceSet& c, const FaceFields<double>& m, std::size_t k) {
   const bool carries_tension = c.carries_tension[k] > 0.0;
-  return static_cast<std::uint8_t>((carries_tension || m.closure_a[k] > 0.0 ? closed_a : 0) |
-                                   (carries_tension || m.closure_b[k] > 0.0 ? closed_b : 0) |
-                                   (is_cut(m.trial_a[k], m.slip_a[k]) ? slides_a : 0) |
-                                   (is_cut(m.trial_b[k], m.slip_b[k]) ? slides_b : 0));
+  return static_cast<std::uint8_t>((carries_tension || m.closure_a > 0.0 ? closed_a : 0) |
+                                   (carries_tension || m.closure_b > 0.0 ? closed_b : 0) |
+                                   (is_cut(m.trial_a, m.slip_a) ? slides_a : 0) |
+                                   (is_cut(m.trial_b, m.slip_b) ? slides_b : 0));
 }
 
 /// Whether an end carries its full shear strength, to rounding.
@@ -50,60 +60,95 @@ bool at_limit(double shear, double limit) {
 
 /// Ends that slid in the last step and still carry their full shear strength, before anything has
 /// moved.
-std::uint8_t slides_on(const FaceSprings& springs, const FaceMemory& m, std::size_t k) {
+std::uint8_t slides_on(const FaceSprings& springs, const FaceFields<double>& m, std::size_t k) {
   const std::uint8_t was = springs.state[k];
-  const bool a = (was & slides_a) != 0 && at_limit(m.shear_a[k], springs.limits.a[k]);
-  const bool b = (was & slides_b) != 0 && at_limit(m.shear_b[k], springs.limits.b[k]);
+  const bool a = (was & slides_a) != 0 && at_limit(m.shear_a, springs.limits.a[k]);
+  const bool b = (was & slides_b) != 0 && at_limit(m.shear_b, springs.limits.b[k]);
   return static_cast<std::uint8_t>((a ? slides_a : 0) | (b ? slides_b : 0));
 }
 
-/// -sum f . (x - x_1) over the corners of face k, J.
-double taken_from_blocks(const FaceSet& c, const Pose& pose, std::size_t k) {
-  return -work_of(corner_forces(c, k), face_points(c, pose.x, pose.y, k),
-                  face_points(c, pose.x1, pose.y1, k));
+/// -sum f . (x - x_1) over the corners of a face, J.
+double taken_from_blocks(const FaceRow& r, const Pose& pose) {
+  return -work_of(r.force, face_points(r.of, pose.x, pose.y, r.k),
+                  face_points(r.of, pose.x1, pose.y1, r.k));
+}
+
+/// Notes what is decided of faces now, before it changes.
+void note(FaceSprings& s, const TrialFaces& of, const std::vector<Id>& faces) {
+  for (const Id k : faces) {
+    recall_work(of.faces, of.tiled.tiles, k);
+    s.undecided.try_emplace(k, properties_of(of.faces, k));
+  }
+}
+
+/// Restores activity and offsets at the start of the step, which may have changed at other trial
+/// positions.
+void restore_activity(const FaceSprings& s, const TrialFaces& of, const BlockSet& b) {
+  FaceSet& c = of.faces;
+  for (const auto& [k, was] : s.undecided) {
+    recall_work(c, of.tiled.tiles, k);
+    c.acts[k] = was.acts;
+    c.leans[k] = was.leans;
+    c.locked_closure_a[k] = was.locked_closure_a;
+    c.locked_closure_b[k] = was.locked_closure_b;
+    load_decisions(of.tiled.tiles, c, b, k);
+  }
 }
 
 }  // namespace
 
-void begin_springs(FaceSprings& springs, const FaceSet& c) {
-  const std::size_t n = c.size();
-  springs.acts = c.acts.values();
-  springs.leans = c.leans.values();
-  springs.locked_closure_a = c.locked_closure_a.values();
-  springs.locked_closure_b = c.locked_closure_b.values();
-  springs.stored.resize(n);
-  springs.state.resize(n);
-  springs.limits.a.resize(n);
-  springs.limits.b.resize(n);
-  springs.first = false;
-  parallel_for(n, [&](std::size_t k) {
-    springs.stored[k] = energy_of(c.before, k);
-    springs.state[k] = state_of(c, c.before, k);
-    set_limits(springs, c, k);
-  });
+FaceRow face_row(const TrialFaces& of, const BlockSet& b, const Pose& pose, std::size_t k) {
+  return face_row(of.faces, of.tiled.tiles, b, pose, k);
 }
 
-std::size_t evaluate_springs(FaceSprings& springs, FaceSet& c, const FaceScene& scene, double step,
-                             bool first) {
-  // Restores the decisions and offsets at the start of the step, which may have changed at other
-  // trial positions.
-  c.acts.take(springs.acts);
-  c.leans.take(springs.leans);
-  c.locked_closure_a.take(springs.locked_closure_a);
-  c.locked_closure_b.take(springs.locked_closure_b);
-  evaluate_with_limits(c, scene, step, springs.limits);
-  springs.first = first;
+void begin_springs(FaceSprings& s, const TrialFaces& of, const FaceScene& scene) {
+  const FaceSet& c = of.faces;
+  const std::size_t n = c.size();
+  of.tiled.sleep_part = 0.0;
+  begin_limits(of.tiled.tiles);
+  for (auto* values : {&s.normal.a, &s.normal.b, &s.limits.a, &s.limits.b, &s.cohesive, &s.stored})
+    values->resize(n);
+  s.state.resize(n);
+  s.undecided.clear();
+  s.first = false;
+  const auto begin = [&](std::size_t k) {
+    const FaceFields<double> m =
+        touches(of, k) ? face_row(of, scene.blocks, scene.pose, k).state : FaceFields<double>{};
+    s.stored[k] = energy_of(m);
+    s.state[k] = touches(of, k) ? state_of(c, m, k) : 0;
+    s.normal.a[k] = m.normal_a + m.damping_a;
+    s.normal.b[k] = m.normal_b + m.damping_b;
+    s.cohesive[k] = m.cohesive;
+    set_limits(s, of, k);
+  };
+  parallel_for(n, begin, cost_of_a_face);
+}
+
+std::size_t evaluate_springs(FaceSprings& s, const TrialFaces& of, const FaceScene& scene,
+                             double step, bool first, const ForcesOfFaces& on) {
+  FaceSet& c = of.faces;
+  const FaceTiles& t = of.tiled.tiles;
+  restore_activity(s, of, scene.blocks);
+  FacesInStep faces(c, of.tiled, scene, step, 0.0, on, true);
+  faces.sweep();
+  const std::vector<Id> asking = faces.asking();
+  note(s, of, asking);
+  faces.decide_and_evaluate(asking);
+  s.first = first;
   std::vector<std::size_t> changed(c.chunks(), 0);
-  parallel_chunks(c.size(), FaceSet::chunk, 5,
-                  [&](std::size_t q, std::size_t begin, std::size_t end) {
-                    for (std::size_t k = begin; k < end; ++k) {
-                      std::uint8_t state = state_of(c, c.now, k);
-                      if (first)
-                        state = static_cast<std::uint8_t>(state | slides_on(springs, c.now, k));
-                      if (state != springs.state[k]) ++changed[q];
-                      springs.state[k] = state;
-                    }
-                  });
+  const auto look = [&](std::size_t q, std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) {
+      std::uint8_t state = 0;
+      if (touches(of, k)) {
+        const FaceFields<double> m = remembered(t, t.now, k);
+        state = state_of(c, m, k);
+        if (first) state = static_cast<std::uint8_t>(state | slides_on(s, m, k));
+      }
+      if (state != s.state[k]) ++changed[q];
+      s.state[k] = state;
+    }
+  };
+  parallel_chunks(c.size(), FaceSet::chunk, 40, look);
   std::size_t sum = 0;
   for (const std::size_t n : changed) sum += n;
   return sum;
@@ -118,39 +163,60 @@ FaceStiffness springs_of(const FaceSprings& springs, const FaceSet& c, const Fac
   return face_stiffness(c, scene, step, taken, k);
 }
 
-std::vector<Id> break_overloaded(FaceSprings& springs, FaceSet& c, const BlockSet& b,
-                                 const LawTable& laws) {
+std::vector<Id> break_overloaded(FaceSprings& s, const TrialFaces& of, const FaceScene& scene) {
+  FaceSet& c = of.faces;
+  FaceTiles& t = of.tiled.tiles;
   std::vector<Id> broken;
   for (std::size_t k = 0; k < c.size(); ++k) {
-    if (c.bonded[k] == 0.0 && c.carries_tension[k] == 0.0) continue;
-    const FaceFields<double> now = row_of(c.now, k);
-    if (!bond_fails(c, b, now, k)) continue;
-    break_bond(c, b, laws, now, k);
-    set_limits(springs, c, k);
-    broken.push_back(static_cast<Id>(k));
+    if (t.has_found(lane_bits::fails, k)) broken.push_back(static_cast<Id>(k));
+  }
+  note(s, of, broken);
+  for (const Id k : broken) {
+    recall_work(c, t, k);
+    break_bond(c, scene.blocks, scene.laws, face_row(of, scene.blocks, scene.pose, k).state, k);
+    set_limits(s, of, k);
+    load_decisions(t, c, scene.blocks, k);
   }
   return broken;
 }
 
-void account_springs(const FaceSprings& springs, FaceSet& c, const Pose& pose,
+void account_springs(const FaceSprings& s, const TrialFaces& of, const FaceScene& scene,
                      const std::vector<Id>& broken) {
-  parallel_for(c.size(), [&](std::size_t k) {
-    FaceMemory& m = c.now;
-    const double lost = taken_from_blocks(c, pose, k) - (energy_of(m, k) - springs.stored[k]);
-    const double friction = m.spring[k] * (m.slip_a[k] * (m.trial_a[k] - m.slip_a[k]) +
-                                           m.slip_b[k] * (m.trial_b[k] - m.slip_b[k]));
+  FaceSet& c = of.faces;
+  FaceTiles& t = of.tiled.tiles;
+  recall_work(c, t);
+  const auto account = [&](std::size_t k) {
+    if (!touches(of, k) && s.stored[k] == 0.0) return;
+    const FaceRow row = face_row(of, scene.blocks, scene.pose, k);
+    const FaceFields<double>& m = row.state;
+    const double lost = taken_from_blocks(row, scene.pose) - (energy_of(m) - s.stored[k]);
+    const double friction =
+        m.spring * (m.slip_a * (m.trial_a - m.slip_a) + m.slip_b * (m.trial_b - m.slip_b));
     const double rest = lost - friction;
     // A bond that breaks releases its energy. What the scheme dissipates in the same step cannot be
     // separated from this.
     const bool broke = std::binary_search(broken.begin(), broken.end(), static_cast<Id>(k));
-    const double fracture = broke ? std::clamp(rest, 0.0, springs.stored[k]) : 0.0;
-    if (broke) c.friction_work[k] += friction;
-    m.friction_work[k] = broke ? fracture : friction;  // next_step() adds it to fracture or
-                                                       // friction
-    m.damping_work[k] = rest - fracture;
-    m.damping_due[k] = m.transfer[k] = 0.0;
-  });
-  begin_from_step_end(c);
+    const double fracture = broke ? std::clamp(rest, 0.0, s.stored[k]) : 0.0;
+    c.friction_work[k] += friction;
+    c.fracture_work[k] += fracture;
+    c.damping_work[k] += rest - fracture;
+    if (t.has_found(lane_bits::opens, k)) c.opened[k] = 1.0;
+    if (t.has_found(lane_bits::slides, k)) c.slipped[k] = 1.0;
+  };
+  parallel_for(c.size(), account, cost_of_a_face);
+  if (c.gluing) glue_pressed(c, t, scene.blocks, scene.pose.x, scene.pose.y);
+  count_failures(c);
+  keep_trial(t, c);
+}
+
+void go_back(FaceSprings& s, const TrialFaces& of, const BlockSet& b) {
+  FaceTiles& t = of.tiled.tiles;
+  for (const auto& [k, was] : s.undecided) {
+    set_properties(of.faces, k, was);
+    load_decisions(t, of.faces, b, k);
+  }
+  s.undecided.clear();
+  drop_trial(t);
 }
 
 }  // namespace edda

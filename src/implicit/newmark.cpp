@@ -31,17 +31,17 @@ double largest_move(const Pose& pose) {
 }
 
 void begin(ImplicitSolver& s, const ImplicitScene& scene, const State& state, Pose& pose,
-           FaceSet& c) {
+           const TrialFaces& of) {
   const BlockSet& b = scene.blocks;
-  s.faces_before = c;
   s.start_x = state.x;
   s.start_y = state.y;
   s.start_bend = state.bend;
   pose.x1 = pose.x;
   pose.y1 = pose.y;
-  begin_springs(s.springs, c);
-  if (s.pattern_of != c.rebuilds) set_pattern(s, scene, state, c);
-  s.pattern_of = c.rebuilds;
+  begin_springs(s.springs, of, scene.faces(pose));
+  if (s.pattern_of != of.faces.rebuilds) set_pattern(s, scene, state, pose, of);
+  s.pattern_of = of.faces.rebuilds;
+  if (s.on_faces.x[0].size() != b.size()) s.on_faces = no_forces(b);
   s.moved = Eigen::VectorXd::Zero(s.matrix.lines());
   if (s.mean_velocity_x[0].empty()) {
     s.mean_velocity_x = state.vx;
@@ -70,21 +70,21 @@ void move(ImplicitSolver& s, const ImplicitScene& scene, double part, State& sta
   s.last_displacement = largest_move(pose);
 }
 
-void go_back(const ImplicitSolver& s, State& state, Pose& pose, FaceSet& c) {
+void go_back(ImplicitSolver& s, const BlockSet& b, State& state, Pose& pose, const TrialFaces& of) {
   state.x = s.start_x;
   state.y = s.start_y;
   state.bend = s.start_bend;
   pose.x = pose.x1;
   pose.y = pose.y1;
-  c = s.faces_before;
+  go_back(s.springs, of, b);
 }
 
 /// One global solve: K^ correction = residual (Eq. 10).
 bool solve(ImplicitSolver& s, const ImplicitScene& scene, const ImplicitSettings& settings,
-           double error, const State& state, const Pose& pose, const FaceSet& c) {
-  if (!assemble(s, scene, settings, state, pose, c)) {
-    set_pattern(s, scene, state, c);
-    assemble(s, scene, settings, state, pose, c);
+           double error, const State& state, const Pose& pose, const TrialFaces& of) {
+  if (!assemble(s, scene, settings, state, pose, of.faces)) {
+    set_pattern(s, scene, state, pose, of);
+    assemble(s, scene, settings, state, pose, of.faces);
   }
   s.correction = Eigen::VectorXd::Zero(s.residual.size());
   return s.linear.solve(s.matrix, s.residual, std::clamp(margin / error, tightest, loosest),
@@ -157,7 +157,7 @@ double restore_angular_momentum(const ImplicitSolver& s, const BlockSet& b,
 /// Eqs. 7 and 8: v_{n+1} = 2 D/h - v_n, and the lost angular momentum; in a static analysis
 /// velocities are zero at the beginning and end of every step.
 void finish(ImplicitSolver& s, const ImplicitScene& scene, const ImplicitSettings& settings,
-            State& state, const Pose& pose, FaceSet& c, const std::vector<Id>& broken,
+            State& state, const Pose& pose, const TrialFaces& of, const std::vector<Id>& broken,
             std::vector<double>& damping_work) {
   const double h = settings.step;
   parallel_for(s.block_of.size(), [&](std::size_t row) {
@@ -174,14 +174,14 @@ void finish(ImplicitSolver& s, const ImplicitScene& scene, const ImplicitSetting
       damping_work[i] -= restore_angular_momentum(s, b, before, state, static_cast<Id>(row));
     }
   });
-  account_springs(s.springs, c, pose, broken);
+  account_springs(s.springs, of, scene.faces(pose), broken);
 }
 
 /// One attempt at a step, by iteration of the functions above.
 class Rounds {
  public:
   Rounds(ImplicitSolver& solver, const ImplicitScene& scene, const ImplicitSettings& settings,
-         State& state, Pose& pose, FaceSet& contacts, NodalForces& forces)
+         State& state, Pose& pose, const TrialFaces& contacts, NodalForces& forces)
       : s_(solver),
         scene_(scene),
         settings_(settings),
@@ -217,12 +217,12 @@ class Rounds {
   double balance() {
     const bool first = s_.iterations == 0;
     const std::size_t changed =
-        evaluate_springs(s_.springs, c_, scene_.faces(pose_), settings_.step, first);
+        evaluate_springs(s_.springs, c_, scene_.faces(pose_), settings_.step, first,
+                         {s_.on_faces.x, s_.on_faces.y, s_.on_faces.modes});
     if (!first) s_.switched += changed;
-    sum_faces(s_.on_faces, scene_.blocks, c_);
     gather_forces(forces_, scene_.blocks, state_, pose_, s_.on_faces, scene_.springs,
                   scene_.gravity, scene_.loads, scene_.locked);
-    return measure_residual(s_, scene_, settings_, state_, c_, forces_);
+    return measure_residual(s_, scene_, settings_, state_, c_.tiled, forces_);
   }
 
   /// First guess of a dynamic step: the displacement of the last step once more. (Not h v_n: the
@@ -243,7 +243,7 @@ class Rounds {
   /// Whether all bonds carry their present load. Those that do not break, and the count of
   /// iterations begins again.
   bool bonds_stay(std::vector<Id>& broken, int& most, double& error) {
-    const std::vector<Id> now = break_overloaded(s_.springs, c_, scene_.blocks, scene_.laws);
+    const std::vector<Id> now = break_overloaded(s_.springs, c_, scene_.faces(pose_));
     if (now.empty()) return true;
     broken.insert(broken.end(), now.begin(), now.end());
     most = s_.iterations + most_iterations;
@@ -294,21 +294,21 @@ class Rounds {
   const ImplicitSettings& settings_;
   State& state_;
   Pose& pose_;
-  FaceSet& c_;
+  const TrialFaces& c_;
   NodalForces& forces_;
 };
 
 }  // namespace
 
 Attempt newmark_step(ImplicitSolver& s, const ImplicitScene& scene,
-                     const ImplicitSettings& settings, State& state, Pose& pose, FaceSet& c,
-                     NodalForces& forces, std::vector<double>& damping_work) {
+                     const ImplicitSettings& settings, State& state, Pose& pose,
+                     const TrialFaces& c, NodalForces& forces, std::vector<double>& damping_work) {
   std::vector<Id> broken;
   const Attempt attempt = Rounds(s, scene, settings, state, pose, c, forces).run(broken);
   if (attempt == Attempt::accepted) {
     finish(s, scene, settings, state, pose, c, broken, damping_work);
   } else {
-    go_back(s, state, pose, c);
+    go_back(s, scene.blocks, state, pose, c);
   }
   return attempt;
 }

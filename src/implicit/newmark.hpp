@@ -65,7 +65,6 @@ struct ImplicitSolver {
   ModeVectors start_bend;                  ///< [modes] amplitudes there, m
   Nodes mean_velocity_x, mean_velocity_y;  ///< [nodes][nb] mean velocity in the last step, m/s
   ModeVectors mean_bend_rate;              ///< [modes] the same of the modes, m/s
-  FaceSet faces_before;                    ///< to be restored where the step is cut
   // [matrix.lines()] each:
   Eigen::VectorXd moved;             ///< displacement of the step D, m
   Eigen::VectorXd residual;          ///< N
@@ -74,6 +73,7 @@ struct ImplicitSolver {
   std::vector<double> carried;       ///< [rows] working array of measure_residual(), N
   std::vector<double> error;         ///< [rows] working array of measure_residual()
   std::vector<double> energy;        ///< [nb] stored_energy() at the start of the step, J
+  std::vector<double> by_faces;      ///< [nb] sizes of the forces of the faces on it, N
   NodalForces on_faces;              ///< forces of the faces in the last iteration, N
   int iterations = 0;                ///< iterations of the last attempt
   std::uint64_t switched = 0;        ///< changes of contact states in it
@@ -84,7 +84,8 @@ struct ImplicitSolver {
 /// pose (x1, y1 the positions before), contacts and damping work are those of its end. Otherwise
 /// they are unchanged, bit for bit; `forces` are those of the last trial position.
 Attempt newmark_step(ImplicitSolver& solver, const ImplicitScene& scene,
-                     const ImplicitSettings& settings, State& state, Pose& pose, FaceSet& contacts,
-                     NodalForces& forces, std::vector<double>& damping_work);
+                     const ImplicitSettings& settings, State& state, Pose& pose,
+                     const TrialFaces& contacts, NodalForces& forces,
+                     std::vector<double>& damping_work);
 
 }  // namespace edda

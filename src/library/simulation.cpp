@@ -6,6 +6,7 @@
 #include "library/impl.hpp"
 #include "results/files.hpp"
 #include "step/changes.hpp"
+#include "step/tile_step.hpp"
 #include "study/limit_analysis.hpp"
 
 namespace edda::api {

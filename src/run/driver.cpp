@@ -15,6 +15,7 @@
 #include "step/faces_now.hpp"
 #include "step/labels.hpp"
 #include "step/step.hpp"
+#include "step/tile_step.hpp"
 
 namespace edda {
 namespace {

@@ -14,6 +14,7 @@
 #include "run/ramp_memory.hpp"
 #include "run/simulation_memory.hpp"
 #include "run/wall_clock.hpp"
+#include "step/tile_step.hpp"
 
 namespace edda {
 namespace {

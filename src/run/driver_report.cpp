@@ -6,6 +6,7 @@
 #include "run/driver.hpp"
 #include "run/wall_clock.hpp"
 #include "step/contact_pairs.hpp"
+#include "step/tile_step.hpp"
 
 namespace edda {
 namespace {

@@ -12,6 +12,7 @@
 #include "step/energy_balance.hpp"
 #include "step/force_jumps.hpp"
 #include "step/simulation.hpp"
+#include "step/tile_step.hpp"
 
 namespace edda {
 namespace {

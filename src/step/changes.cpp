@@ -8,6 +8,7 @@
 #include "step/contact_search.hpp"
 #include "step/force_jumps.hpp"
 #include "step/simulation.hpp"
+#include "step/tile_step.hpp"
 
 namespace edda {
 

@@ -14,6 +14,7 @@
 #include "step/faces_now.hpp"
 #include "step/simulation.hpp"
 #include "step/step.hpp"
+#include "step/tile_step.hpp"
 
 namespace edda {
 
@@ -35,7 +36,7 @@ void sum_contact_forces(Simulation& sim) {
 }
 
 void search_faces(Simulation& sim, const Reach& reach) {
-  if (sim.leapfrog.tiled.loaded && steps_in_tiles(sim)) return search_in_tiles(sim, reach);
+  if (sim.motion.tiled.loaded && steps_in_tiles(sim)) return search_in_tiles(sim, reach);
   const BlockSet& blocks = sim.scene->blocks;
   State& state = sim.motion.state;
   Pose& pose = sim.motion.pose;

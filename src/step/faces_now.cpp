@@ -22,7 +22,7 @@ Face face_now(const Simulation& sim, std::size_t k) {
 
 /// Forces of the dashpots across the ends of face k, which is in tiles, N.
 FaceEnds dashpots_across(const Simulation& sim, std::size_t k) {
-  const FaceTiles& t = sim.leapfrog.tiled.tiles;
+  const FaceTiles& t = sim.motion.tiled.tiles;
   const Id place = t.place[k][0];
   if (!t.dashpots || place == no_id) return {};
   const auto memory = get<DashpotMemoryColumns<double>>(t, t.now, place);
@@ -45,7 +45,7 @@ std::vector<Id> faces_that_exceed(const Simulation& sim, double above) {
 /// upper bound of the closures.
 std::vector<Id> faces_that_may_exceed(const Simulation& sim, double above) {
   constexpr double rounding = 1e-9;  // in which the tiles may be off
-  const FaceTiles& t = sim.leapfrog.tiled.tiles;
+  const FaceTiles& t = sim.motion.tiled.tiles;
   const FaceSet& c = sim.motion.contacts;
   const BlockSet& b = sim.scene->blocks;
   const double least = (1.0 - rounding) * above;
@@ -64,20 +64,20 @@ std::vector<Id> faces_that_may_exceed(const Simulation& sim, double above) {
 }  // namespace
 
 FaceRow face_row(const Simulation& sim, std::size_t k) {
-  const TiledFaces& tiled = sim.leapfrog.tiled;
+  const TiledFaces& tiled = sim.motion.tiled;
   if (!tiled.ahead) return face_row(sim.motion.contacts, k);
   return face_row(sim.motion.contacts, tiled.tiles, sim.scene->blocks, sim.motion.pose, k);
 }
 
 bool has_opened(const Simulation& sim, std::size_t k) {
-  if (!sim.leapfrog.tiled.ahead) return sim.motion.contacts.opened[k] > 0.0;
-  return sim.leapfrog.tiled.tiles.has_ever(lane_bits::opens, k);
+  if (!sim.motion.tiled.ahead) return sim.motion.contacts.opened[k] > 0.0;
+  return sim.motion.tiled.tiles.has_ever(lane_bits::opens, k);
 }
 
 bool is_closed_now(const Simulation& sim, std::size_t k) {
   const FaceSet& c = sim.motion.contacts;
-  if (!sim.leapfrog.tiled.ahead) return is_closed(c, k);
-  const FaceTiles& t = sim.leapfrog.tiled.tiles;
+  if (!sim.motion.tiled.ahead) return is_closed(c, k);
+  const FaceTiles& t = sim.motion.tiled.tiles;
   return t.remembers(lane_bits::stored, k) || (c.bonded[k] > 0.0 && t.remembers(lane_bits::on, k));
 }
 
@@ -87,8 +87,8 @@ constexpr std::size_t cost_of_a_face = 100 / seldom;  // ns, of closed faces and
 
 FaceWork work_now(const Simulation& sim, std::size_t k) {
   const FaceSet& c = sim.motion.contacts;
-  const FaceTiles& t = sim.leapfrog.tiled.tiles;
-  if (!sim.leapfrog.tiled.ahead)
+  const FaceTiles& t = sim.motion.tiled.tiles;
+  if (!sim.motion.tiled.ahead)
     return {c.friction_work[k], c.damping_work[k], c.fracture_work[k], c.transfer[k],
             c.now.damping_due[k]};
   const Id place = t.place[k][0];
@@ -108,7 +108,7 @@ double normal_of(const Simulation& sim, const Face& face, std::size_t k) {
 NormalNow normal_now(const Simulation& sim, std::size_t k) {
   if (!is_closed_now(sim, k)) return {};
   const FaceSet& c = sim.motion.contacts;
-  if (!sim.leapfrog.tiled.ahead)
+  if (!sim.motion.tiled.ahead)
     return {normal_force(c, k), c.stiffness[k] * c.now.length[k] * c.now.gate[k]};
   const Face face = face_now(sim, k);
   return {normal_of(sim, face, k), c.stiffness[k] * std::max(face.length, 0.0) * face.gate};
@@ -134,13 +134,13 @@ std::vector<double> normal_forces_now(const Simulation& sim) {
 
 FaceMeasures measure_faces(const Simulation& sim) {
   const FaceSet& c = sim.motion.contacts;
-  const FaceTiles& t = sim.leapfrog.tiled.tiles;
+  const FaceTiles& t = sim.motion.tiled.tiles;
   const BlockSet& b = sim.scene->blocks;
   FaceMeasures all{std::vector<double>(c.size(), 0.0), std::vector<double>(c.size(), 0.0),
                    std::vector<FaceWork>(c.size())};
   const auto measure = [&](std::size_t k) {
     all.work[k] = work_now(sim, k);
-    if (!sim.leapfrog.tiled.ahead) {
+    if (!sim.motion.tiled.ahead) {
       all.normal[k] = normal_now(sim, k).force;
       all.energy[k] = face_energy(c, b, sim.motion.pose, k);
       return;
@@ -174,7 +174,7 @@ DeepestNow deepest_now(const Simulation& sim, double above) {
   const BlockSet& b = sim.scene->blocks;
   const Pose& pose = sim.motion.pose;
   const std::vector<Id> among =
-      sim.leapfrog.tiled.ahead ? faces_that_may_exceed(sim, above) : faces_that_exceed(sim, above);
+      sim.motion.tiled.ahead ? faces_that_may_exceed(sim, above) : faces_that_exceed(sim, above);
   DeepestNow deepest;
   for (const Id k : among) {
     const Face face = face_now(sim, k);

@@ -15,6 +15,7 @@
 #include "step/load_work.hpp"
 #include "step/simulation.hpp"
 #include "step/step.hpp"
+#include "step/tile_step.hpp"
 
 namespace edda {
 namespace {
@@ -142,7 +143,7 @@ void switch_faces(Simulation& sim, double h_old) {
                           own.damps.kicks,
                           &own.old_rate,
                           sim.motion.masses.mode_damping[0].empty() ? nullptr : &own.mode_damping};
-    if (own.tiled.ahead) {
+    if (motion.tiled.ahead) {
       switch_in_tiles(sim, taken);
     } else {
       FaceRows rows(motion.contacts, face_scene(sim), motion.state.step);
@@ -150,8 +151,8 @@ void switch_faces(Simulation& sim, double h_old) {
                         switching_faces(motion.contacts), rows);
     }
   }
-  if (own.tiled.ahead) {
-    accounts.penetration = largest_closure(own.tiled);
+  if (motion.tiled.ahead) {
+    accounts.penetration = largest_closure(motion.tiled);
   } else {
     sum_face_forces(sim);
     accounts.penetration = largest_closure(motion.contacts);

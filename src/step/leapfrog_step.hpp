@@ -1,6 +1,5 @@
 // Working data of the leapfrog (theory, section 7.1), kept from step to step. A checkpoint needs
-// none of it, once the rows of the faces are up to date (step/tile_step.hpp): until then the tiles
-// alone know the slip of the faces.
+// none of it.
 #pragma once
 
 #include <optional>
@@ -15,7 +14,6 @@
 #include "step/divergence.hpp"
 #include "step/face_switching.hpp"
 #include "step/ground_motion.hpp"
-#include "step/tile_step.hpp"
 
 namespace edda {
 
@@ -42,7 +40,6 @@ struct LeapfrogStep {
   std::vector<FreeFieldColumn> next_columns;  ///< free field at the end of the step
   std::vector<double> largest;  ///< [chunks of blocks] squares of largest displacements, m2
   FaceSwitchingScratch switching;
-  TiledFaces tiled;
   StrainDamping strain_damping;
   ModeDamping mode_damping;
   BlockKicks kicks;   ///< of adaptive damping, block by block

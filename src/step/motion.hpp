@@ -9,6 +9,7 @@
 #include "blocks/state.hpp"
 #include "contacts/face_set.hpp"
 #include "contacts/laws.hpp"
+#include "contacts/tiled_faces.hpp"
 #include "forces/nodal_forces.hpp"
 
 namespace edda {
@@ -19,6 +20,8 @@ struct Motion {
   Masses masses;  ///< in force
   LawTable laws;  ///< with the strength in force
   FaceSet contacts;
+  TiledFaces tiled;  ///< the faces in tiles, which step them; until the rows of `contacts` are
+                     ///< brought up to date (step/tile_step.hpp) they alone know the states
   NodalForces on_contacts;  ///< forces of the contacts at n on the blocks, N; of fixed
                             ///< ones only where the ground moves or faces are stepped by rows
   NodalForces forces;

@@ -8,7 +8,7 @@
 
 #include "base/parallel.hpp"
 #include "contacts/evaluate_faces.hpp"
-#include "contacts/joint_laws.hpp"
+#include "contacts/tile_decisions.hpp"
 #include "step/contact_search.hpp"
 #include "step/face_switching.hpp"
 #include "step/instant.hpp"
@@ -16,6 +16,7 @@
 #include "step/load_work.hpp"
 #include "step/simulation.hpp"
 #include "step/step.hpp"
+#include "step/tile_step.hpp"
 
 namespace edda {
 namespace {
@@ -89,7 +90,7 @@ void set_newmark_limit(Simulation& sim) {
 void start_newmark(Simulation& sim) {
   const State& state = sim.motion.state;
   Pose& pose = sim.motion.pose;
-  FaceSet& contacts = sim.motion.contacts;
+  FaceSet& contacts = faces_to_change(sim);
   sim.control.step_before = state.step;
   pose.x1 = pose.x;
   pose.y1 = pose.y;
@@ -141,9 +142,9 @@ std::optional<Failure> move_blocks(Simulation& sim, LoadsNow& now) {
   for (int cuts = 0;; ++cuts) {
     settings.step = state.step;
     scene.loads = loads_at(sim.scene->model, sim.attached.loads, state.time + state.step);
-    const Attempt attempt =
-        newmark_step(sim.implicit, scene, settings, state, sim.motion.pose, sim.motion.contacts,
-                     sim.motion.forces, sim.accounts.damping_work.joules);
+    const Attempt attempt = newmark_step(sim.implicit, scene, settings, state, sim.motion.pose,
+                                         {sim.motion.contacts, sim.motion.tiled}, sim.motion.forces,
+                                         sim.accounts.damping_work.joules);
     const auto iterations = static_cast<std::uint64_t>(own.iterations);
     counts.passes += iterations;
     counts.most = std::max(counts.most, iterations);
@@ -179,16 +180,20 @@ std::optional<Failure> step_newmark(Simulation& sim) {
   Motion& motion = sim.motion;
   Accounts& accounts = sim.accounts;
   StageClock clock(motion.state.steps);
+  TiledFaces& tiled = sim.motion.tiled;
+  load_tiles(sim);
+  if (!tiled.ahead) motion.contacts.drop_states();
+  tiled.ahead = true;
   if (motion.laws.any_changes) {
-    update_joint_laws(motion.contacts, sim.scene->blocks, motion.pose, motion.laws);
+    update_joint_laws(motion.contacts, tiled.tiles, sim.scene->blocks, motion.pose, motion.laws);
   }
   LoadsNow at_work;
   if (std::optional<Failure> failure = move_blocks(sim, at_work)) return failure;
-  sum_face_forces(sim);
+  motion.on_contacts = sim.implicit.on_faces;
   account_loads(sim, at_work);
   if (motion.state.step != sim.control.step_before) ++accounts.steps.changes;
   finish_step(sim);
-  accounts.penetration = largest_closure(motion.contacts);
+  accounts.penetration = largest_closure(tiled);
   accounts.max_penetration = std::max(accounts.max_penetration, accounts.penetration);
   motion.pose.x1 = motion.pose.x;
   motion.pose.y1 = motion.pose.y;

@@ -14,6 +14,7 @@
 #include "step/contact_search.hpp"
 #include "step/force_jumps.hpp"
 #include "step/simulation.hpp"
+#include "step/tile_step.hpp"
 #include "step/touching.hpp"
 
 namespace edda {

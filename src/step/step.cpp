@@ -9,6 +9,7 @@
 #include "step/instant.hpp"
 #include "step/invariants.hpp"
 #include "step/simulation.hpp"
+#include "step/tile_step.hpp"
 
 namespace edda {
 

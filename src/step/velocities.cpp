@@ -6,6 +6,7 @@
 #include "step/contact_search.hpp"
 #include "step/energy_balance.hpp"
 #include "step/simulation.hpp"
+#include "step/tile_step.hpp"
 
 namespace edda {
 

@@ -7,6 +7,7 @@
 #include "judge/rest.hpp"
 #include "limit/joint_strength.hpp"
 #include "step/faces_now.hpp"
+#include "step/tile_step.hpp"
 
 namespace edda {
 namespace {

@@ -9,6 +9,7 @@
 #include "run/ramp.hpp"
 #include "step/changes.hpp"
 #include "step/step.hpp"
+#include "step/tile_step.hpp"
 #include "study/certificate.hpp"
 
 namespace edda {

@@ -14,6 +14,7 @@
 #include "run/prepared.hpp"
 #include "run/simulation_memory.hpp"
 #include "scratch_folder.hpp"
+#include "step/tile_step.hpp"
 
 namespace edda::stage_resume_test {
 namespace {

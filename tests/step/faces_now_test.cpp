@@ -13,6 +13,7 @@
 #include "run/prepared.hpp"
 #include "step/invariants.hpp"
 #include "step/step.hpp"
+#include "step/tile_step.hpp"
 #include "step/touching.hpp"
 
 namespace edda::faces_now_test {
@@ -41,7 +42,7 @@ void compare_normal_forces(const std::string& contact_damping) {
   std::size_t behind = 0;
   while (sim.motion.state.time < 0.05) {
     ASSERT_FALSE(step_ahead(sim));
-    if (sim.leapfrog.tiled.ahead) ++behind;  // not after a step that has made a new list
+    if (sim.motion.tiled.ahead) ++behind;  // not after a step that has made a new list
     const std::size_t n = sim.motion.contacts.size();
     std::vector<double> seen(n);
     for (std::size_t k = 0; k < n; ++k) seen[k] = normal_force_now(sim, k);
@@ -68,7 +69,7 @@ void compare_faces(const std::string& contact_damping) {
   std::size_t behind = 0;
   while (sim.motion.state.time < 0.02) {
     ASSERT_FALSE(step_ahead(sim));
-    if (sim.leapfrog.tiled.ahead) ++behind;
+    if (sim.motion.tiled.ahead) ++behind;
     std::vector<FaceFields<double>> states;
     std::vector<CornerForces> forces;
     for (std::size_t k = 0; k < sim.motion.contacts.size(); ++k) {
@@ -136,7 +137,7 @@ TEST(FacesNow, TheDeepestIsThatOfTheRows) {
   int found = 0, none = 0, behind = 0;
   while (sim.motion.state.time < 0.05) {
     ASSERT_FALSE(step_ahead(sim));
-    if (sim.leapfrog.tiled.ahead) ++behind;
+    if (sim.motion.tiled.ahead) ++behind;
     const DeepestNow any = deepest_now(sim, 0.0), more = deepest_now(sim, 1.001 * largest);
     update_face_rows(sim);
     const FaceSet& c = sim.motion.contacts;

@@ -1,0 +1,21 @@
+// Trial positions of a step in tiles: between steps both memories are that of step n, and a trial
+// changes that of FaceTiles::now alone. For a method that begins every step at the end of the last.
+#pragma once
+
+#include "contacts/tile_rows.hpp"
+
+namespace edda {
+
+/// Begins a step in which the limits of the shear forces are given; they are 0 until they are.
+void begin_limits(FaceTiles& tiles);
+/// The limits at the ends of face k, N.
+void limit_shear(FaceTiles& tiles, FaceEnds limit, std::size_t k);
+
+/// Accepts the trial: it becomes that of step n, with no work of its own. The accumulated work of
+/// the faces is that of the FaceSet.
+void keep_trial(FaceTiles& tiles, const FaceSet& faces);
+
+/// Gives it up.
+void drop_trial(FaceTiles& tiles);
+
+}  // namespace edda
