@@ -20,10 +20,8 @@ struct AllFaces {
   double noise;
   const double *point_inverse, *edge_inverse;
   double step;
-  const double *limit_a, *limit_b;
 };
-AllFaces all_faces(const FaceSet& c, const FaceScene& scene, double step,
-                   const ShearLimits* limits = nullptr) {
+AllFaces all_faces(const FaceSet& c, const FaceScene& scene, double step) {
   const Pose& pose = scene.pose;
   return {scene.blocks.exterior_cosine.data(),
           scene.blocks.exterior_sine.data(),
@@ -34,9 +32,7 @@ AllFaces all_faces(const FaceSet& c, const FaceScene& scene, double step,
           c.noise,
           scene.masses.point_inverse.data(),
           scene.masses.edge_inverse.data(),
-          step,
-          limits == nullptr ? nullptr : limits->a.data(),
-          limits == nullptr ? nullptr : limits->b.data()};
+          step};
 }
 
 /// Addresses of the data of a chunk.
@@ -71,8 +67,6 @@ EDDA_INLINE FaceView view_of(const AllFaces& all, const ChunkPlace& at) {
   v.point_inverse = all.point_inverse;
   v.edge_inverse = all.edge_inverse;
   v.per_step = 1.0 / all.step;
-  v.limit_a = all.limit_a;
-  v.limit_b = all.limit_b;
   v.now = columns_of_chunk<FaceFields<double*>, face_fields<double*>>(at.now);
   v.before = columns_of_chunk<FaceFields<const double*>, face_fields<const double*>>(at.before);
   v.force = at.force;
@@ -86,13 +80,13 @@ struct ChunkResult {
   double deepest;
 };
 
-template <bool dashpots, bool limits_given>
+template <bool dashpots>
 EDDA_INLINE void evaluate_into(const FaceView& c, std::size_t k, double& deciding,
                                double& switching, double& working, double& deepest) {
-  const FaceInputs in = inputs_of<dashpots, limits_given>(c, k);
+  const FaceInputs in = inputs_of<dashpots>(c, k);
   const EdgeGeometry stands = geometry_of_edges(in.at, in.pair);
   const Face face = face_between(stands, in.pair);
-  const FaceStep s = step_of_face<dashpots, limits_given, Formulas::all>(in, stands, face);
+  const FaceStep s = step_of_face<dashpots, false, Formulas::all>(in, stands, face);
   write_face<dashpots>(c, face, s, k);
   put(c.force + 8 * k, s.force);
   deciding = larger(deciding, s.decides ? 1.0 : 0.0);
@@ -108,7 +102,7 @@ EDDA_INLINE ChunkResult evaluate_rows(const AllFaces& all, const ChunkPlace& at)
   double deciding = 0.0, switching = 0.0, working = 0.0, deepest = 0.0;
 #pragma omp simd reduction(max : deciding, switching, working, deepest)
   for (std::size_t k = 0; k < FaceSet::chunk; ++k) {
-    evaluate_into<dashpots, false>(c, k, deciding, switching, working, deepest);
+    evaluate_into<dashpots>(c, k, deciding, switching, working, deepest);
   }
   return {deciding > 0.0, switching > 0.0, working > 0.0, deepest};
 }
@@ -120,13 +114,13 @@ EDDA_VECTOR ChunkResult evaluate_damped(const AllFaces& all, const ChunkPlace& a
 }
 
 /// Evaluates the rows [first, last) alone, one by one.
-template <bool dashpots, bool limits_given>
+template <bool dashpots>
 ChunkResult evaluate_rows(const AllFaces& all, const ChunkPlace& at, std::size_t first,
                           std::size_t last) {
   const FaceView c = view_of(all, at);
   double deciding = 0.0, switching = 0.0, working = 0.0, deepest = 0.0;
   for (std::size_t k = first; k < last; ++k) {
-    evaluate_into<dashpots, limits_given>(c, k, deciding, switching, working, deepest);
+    evaluate_into<dashpots>(c, k, deciding, switching, working, deepest);
   }
   return {deciding > 0.0, switching > 0.0, working > 0.0, deepest};
 }
@@ -134,7 +128,7 @@ ChunkResult evaluate_rows(const AllFaces& all, const ChunkPlace& at, std::size_t
 /// Updates the geometry of a face that has carried no load for two steps. Returns whether it needs
 /// more than that.
 EDDA_INLINE bool may_close(const FaceView& c, std::size_t k) {
-  const OpenFace s = look_at_open_face(inputs_of<false, false>(c, k));
+  const OpenFace s = look_at_open_face(inputs_of<false>(c, k));
   write_open_face(c, s, k);
   return s.may_close;
 }
@@ -179,23 +173,13 @@ bool break_bonds(FaceSet& c, const FaceScene& scene, const FaceFields<double*>& 
 ChunkResult evaluate_part(const FaceSet& c, const AllFaces& all, const ChunkPlace& at,
                           std::size_t first, std::size_t last) {
   const std::size_t from = first % FaceSet::chunk, to = from + (last - first);
-  const bool limits_given = all.limit_a != nullptr;
-  if (!limits_given && from == 0 && last == std::min(first + FaceSet::chunk, c.size())) {
+  if (from == 0 && last == std::min(first + FaceSet::chunk, c.size()))
     return c.dashpots ? evaluate_damped(all, at) : evaluate_undamped(all, at);
-  }
-  AllFaces here = all;
-  if (limits_given) {
-    here.limit_a += first - from;
-    here.limit_b += first - from;
-    return c.dashpots ? evaluate_rows<true, true>(here, at, from, to)
-                      : evaluate_rows<false, true>(here, at, from, to);
-  }
-  return c.dashpots ? evaluate_rows<true, false>(here, at, from, to)
-                    : evaluate_rows<false, false>(here, at, from, to);
+  return c.dashpots ? evaluate_rows<true>(all, at, from, to)
+                    : evaluate_rows<false>(all, at, from, to);
 }
 
-/// The same, with pending decisions (decide_activity()) and, unless shear is limited from outside,
-/// failure of bonds.
+/// The same, with pending decisions (decide_activity()) and failure of bonds.
 ChunkResult evaluate_with_laws(FaceSet& c, const AllFaces& all, const FaceScene& scene,
                                const ChunkPlace& at, std::size_t first, std::size_t last) {
   ChunkResult found = evaluate_part(c, all, at, first, last);
@@ -206,7 +190,7 @@ ChunkResult evaluate_with_laws(FaceSet& c, const AllFaces& all, const FaceScene&
       const std::size_t row = k % FaceSet::chunk;
       const FaceEnds drawn{view.now.closure_a[row] - view.locked_closure_a[row],
                            view.now.closure_b[row] - view.locked_closure_b[row]};
-      if (needs_decision(inputs_of<false, false>(view, row), view.now.gate[row] > 0.0, drawn,
+      if (needs_decision(inputs_of<false>(view, row), view.now.gate[row] > 0.0, drawn,
                          view.now.energy[row] > 0.0) &&
           decide_activity(c, scene.blocks, scene.pose,
                           {view.before.energy[row] > 0.0, view.before.gate[row] > 0.0}, k))
@@ -214,7 +198,7 @@ ChunkResult evaluate_with_laws(FaceSet& c, const AllFaces& all, const FaceScene&
     }
     if (changes) found = evaluate_part(c, all, at, first, last);
   }
-  const bool bonds = all.limit_a == nullptr && c.bonds[first / FaceSet::chunk] != 0;
+  const bool bonds = c.bonds[first / FaceSet::chunk] != 0;
   if (bonds && break_bonds(c, scene, view.now, first, last)) {
     found = evaluate_part(c, all, at, first, last);
   }
@@ -225,8 +209,7 @@ void evaluate_chunks(FaceSet& c, const AllFaces& all, const FaceScene& scene, st
                      std::size_t end) {
   for (std::size_t first = begin; first < end; first += FaceSet::chunk) {
     const std::size_t last = std::min(end, first + FaceSet::chunk), q = first / FaceSet::chunk;
-    const bool inactive =
-        c.now.inactive[q] && c.before.inactive[q] && !c.bonds[q] && all.limit_a == nullptr;
+    const bool inactive = c.now.inactive[q] && c.before.inactive[q] && !c.bonds[q];
     const ChunkPlace at = chunk_place(c, q);
     if (inactive && !chunk_may_close(all, at)) {
       c.switching[q] = 0;
@@ -301,11 +284,6 @@ void count_failures(FaceSet& c) {
 
 void evaluate_faces(FaceSet& c, const FaceScene& scene, double step) {
   evaluate_all(c, all_faces(c, scene, step), scene);
-}
-
-void evaluate_with_limits(FaceSet& c, const FaceScene& scene, double step,
-                          const ShearLimits& limits) {
-  evaluate_all(c, all_faces(c, scene, step, &limits), scene);
 }
 
 void evaluate_face(FaceSet& c, const FaceScene& scene, double step, std::size_t k) {

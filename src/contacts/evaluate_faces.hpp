@@ -30,16 +30,6 @@ void evaluate_face(FaceSet& faces, const FaceScene& scene, double step, std::siz
 void decide_face(FaceSet& faces, const FaceScene& scene, double step,
                  const FaceFields<double>& before, std::size_t k);
 
-/// Limits of the shear forces at the ends of the faces for a whole step of the implicit method, N.
-struct ShearLimits {
-  std::vector<double> a, b;
-};
-
-/// As evaluate_faces(), with these limits of shear in place of those that follow from the normal
-/// forces; no bond breaks.
-void evaluate_with_limits(FaceSet& faces, const FaceScene& scene, double step,
-                          const ShearLimits& limits);
-
 /// Changes the last step to one made from pose.x1, y1 instead of old_x1, old_y1: corrects what the
 /// faces remember of it, and leaves their forces as they are. `now` must be evaluated again.
 void correct_last_step(FaceSet& faces, const BlockSet& blocks, const Pose& pose,

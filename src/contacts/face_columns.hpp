@@ -23,7 +23,6 @@ struct FaceView : FaceProperties<const double*> {
   double noise;
   const double *point_inverse, *edge_inverse;  // inverse masses, 1/kg, for dashpots
   double per_step;                             ///< 1/s, of the step from n - 1 to n
-  const double *limit_a, *limit_b;             ///< N: those of ShearLimits, or null
   FaceFields<double*> now;
   FaceFields<const double*> before;
   double* force;
@@ -48,7 +47,7 @@ EDDA_INLINE FaceBefore face_before(const FaceView& c, std::size_t k) {
           dashpots ? FaceEnds{m.strike_a[k], m.strike_b[k]} : FaceEnds{}};
 }
 
-template <bool dashpots, bool limits_given>
+template <bool dashpots>
 EDDA_INLINE FaceInputs inputs_of(const FaceView& c, std::size_t k) {
   const auto inverse_mass = [&](const Id* from, const Id* to) {
     return dashpots ? inverse_mass_of_edge(c, from[k], to[k]) : EdgeInverseMass{};
@@ -63,7 +62,7 @@ EDDA_INLINE FaceInputs inputs_of(const FaceView& c, std::size_t k) {
           inverse_mass(c.facing, c.facing_end),
           c.per_step,
           c.noise,
-          limits_given ? FaceEnds{c.limit_a[k], c.limit_b[k]} : FaceEnds{}};
+          {}};
 }
 
 /// Writes the state of face k at n.

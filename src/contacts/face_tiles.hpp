@@ -242,7 +242,7 @@ struct FaceTiles {
   std::vector<LaneBits> bits[2];     ///< [chunks] of steps n and n - 1 in turn
   std::vector<LaneBits> found[2];    ///< [chunks] of that step
   AlignedNumbers sums;               ///< [chunks][sum_columns][8]
-  AlignedNumbers limits;  ///< [chunks][2][8] ShearLimits; empty: they follow from normal forces
+  AlignedNumbers limits;  ///< [chunks][2][8] LimitColumns; empty: they follow from normal forces
   std::vector<LaneBits> ever;   ///< [chunks] `opens`, `slides` of any step until n - 1
   std::vector<double> deepest;  ///< [chunks] as FaceStep::depth, largest in the step so far, m;
                                 ///< of a new list an upper bound of that

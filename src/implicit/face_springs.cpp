@@ -34,9 +34,8 @@ void set_limits(FaceSprings& s, const TrialFaces& of, std::size_t k) {
   const auto limit_of = [&](double normal) {
     return c.bonded[k] > 0.0 ? unlimited_shear : coulomb_limit(cohesion, c.friction[k], normal);
   };
-  s.limits.a[k] = limit_of(s.normal.a[k]);
-  s.limits.b[k] = limit_of(s.normal.b[k]);
-  limit_shear(of.tiled.tiles, {s.limits.a[k], s.limits.b[k]}, k);
+  s.limits[k] = {limit_of(s.normal[k].a), limit_of(s.normal[k].b)};
+  limit_shear(of.tiled.tiles, s.limits[k], k);
 }
 
 /// Whether face k carries force, or would carry it at any displacement, at the last evaluation.
@@ -62,8 +61,8 @@ bool at_limit(double shear, double limit) {
 /// moved.
 std::uint8_t slides_on(const FaceSprings& springs, const FaceFields<double>& m, std::size_t k) {
   const std::uint8_t was = springs.state[k];
-  const bool a = (was & slides_a) != 0 && at_limit(m.shear_a, springs.limits.a[k]);
-  const bool b = (was & slides_b) != 0 && at_limit(m.shear_b, springs.limits.b[k]);
+  const bool a = (was & slides_a) != 0 && at_limit(m.shear_a, springs.limits[k].a);
+  const bool b = (was & slides_b) != 0 && at_limit(m.shear_b, springs.limits[k].b);
   return static_cast<std::uint8_t>((a ? slides_a : 0) | (b ? slides_b : 0));
 }
 
@@ -106,8 +105,8 @@ void begin_springs(FaceSprings& s, const TrialFaces& of, const FaceScene& scene)
   const std::size_t n = c.size();
   of.tiled.sleep_part = 0.0;
   begin_limits(of.tiled.tiles);
-  for (auto* values : {&s.normal.a, &s.normal.b, &s.limits.a, &s.limits.b, &s.cohesive, &s.stored})
-    values->resize(n);
+  for (auto* ends : {&s.normal, &s.limits}) ends->resize(n);
+  for (auto* values : {&s.cohesive, &s.stored}) values->resize(n);
   s.state.resize(n);
   s.undecided.clear();
   s.first = false;
@@ -116,8 +115,7 @@ void begin_springs(FaceSprings& s, const TrialFaces& of, const FaceScene& scene)
         touches(of, k) ? face_row(of, scene.blocks, scene.pose, k).state : FaceFields<double>{};
     s.stored[k] = energy_of(m);
     s.state[k] = touches(of, k) ? state_of(c, m, k) : 0;
-    s.normal.a[k] = m.normal_a + m.damping_a;
-    s.normal.b[k] = m.normal_b + m.damping_b;
+    s.normal[k] = {m.normal_a + m.damping_a, m.normal_b + m.damping_b};
     s.cohesive[k] = m.cohesive;
     set_limits(s, of, k);
   };

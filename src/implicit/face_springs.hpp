@@ -24,9 +24,9 @@ FaceRow face_row(const TrialFaces& of, const BlockSet& blocks, const Pose& pose,
 
 /// Data of one step, [nf] each.
 struct FaceSprings {
-  ShearLimits normal;               ///< forces at the ends at the start of the step, N
+  std::vector<FaceEnds> normal;     ///< forces at the start of the step, N
   std::vector<double> cohesive;     ///< FaceFields::cohesive then
-  ShearLimits limits;               ///< of shear, that follow from these
+  std::vector<FaceEnds> limits;     ///< of shear, that follow from these
   std::vector<double> stored;       ///< J at the start of the step
   std::vector<std::uint8_t> state;  ///< at the last evaluation: 1 and 2: end a, b is closed; 4 and
                                     ///< 8: end a, b slides

@@ -104,7 +104,7 @@ TEST(Assemble, ResidualHasTheVelocityAtTheStartOfTheStep) {
 
 TEST(Assemble, FillsThePatternOfWhatMayTouch) {
   ImplicitBlocks s(pressed);
-  set_pattern(s.solver, s.scene(), s.state, s.contacts);
+  set_pattern(s.solver, s.scene(), s.state, s.pose, s.trial());
   EXPECT_EQ(s.solver.row_of[0], no_id);
   EXPECT_EQ(s.solver.matrix.rows(), 2u);
   EXPECT_NE(s.solver.matrix.slot(0, 1), no_id);

@@ -21,6 +21,7 @@ struct ImplicitBlocks {
   State state;
   Pose pose;
   FaceSet contacts;
+  TiledFaces tiled;
   NodalForces forces;
   ImplicitSolver solver;
   ImplicitSettings settings;
@@ -46,8 +47,10 @@ struct ImplicitBlocks {
     settings.mass_damping = 3.0;
     settings.contact_damping = 0.1;
     set_face_dashpots(contacts, laws, settings.contact_damping);
+    load_tiles(tiled, contacts, blocks, state, pose, false, blocks.size());
   }
 
+  TrialFaces trial() { return {contacts, tiled}; }
   ImplicitScene scene() const { return {blocks, masses, laws, springs, {0.0, -9.81}}; }
 
   void place() {
@@ -61,8 +64,9 @@ struct ImplicitBlocks {
     solver.start_x = state.x;
     solver.start_y = state.y;
     solver.start_bend = state.bend;
-    set_pattern(solver, scene(), state, contacts);
-    begin_springs(solver.springs, contacts);
+    set_pattern(solver, scene(), state, pose, trial());
+    begin_springs(solver.springs, trial(), scene().faces(pose));
+    solver.on_faces = no_forces(blocks);
     solver.moved = Eigen::VectorXd::Zero(solver.matrix.lines());
   }
   /// What is out of balance with D as it stands.
@@ -75,10 +79,10 @@ struct ImplicitBlocks {
             state.bend, i);
     }
     place();
-    evaluate_springs(solver.springs, contacts, scene().faces(pose), settings.step, false);
-    sum_faces(solver.on_faces, blocks, contacts);
+    evaluate_springs(solver.springs, trial(), scene().faces(pose), settings.step, false,
+                     {solver.on_faces.x, solver.on_faces.y, solver.on_faces.modes});
     gather_forces(forces, blocks, state, pose, solver.on_faces, springs, {0.0, -9.81});
-    measure_residual(solver, scene(), settings, state, contacts, forces);
+    measure_residual(solver, scene(), settings, state, tiled, forces);
     return solver.residual;
   }
 };

@@ -4,6 +4,7 @@
 
 #include "observe/observe.hpp"
 #include "step/energy_balance.hpp"
+#include "step/tile_step.hpp"
 #include "verification/models.hpp"
 
 namespace edda::implicit_step_test {
@@ -36,6 +37,13 @@ std::string block(double x, double y, double turn, const std::string& more = "")
   return text + "]\n";
 }
 
+/// The faces as the tiles have them.
+FaceSet rows_of(const Simulation& sim) {
+  FaceSet rows = sim.motion.contacts;
+  unload_faces(rows, sim.motion.tiled.tiles, sim.scene->blocks, sim.motion.pose);
+  return rows;
+}
+
 /// An attempt that fails leaves positions, velocities, pose and contacts as they were, bit for bit,
 /// with contacts that slide, close and open in it.
 TEST(ImplicitAttempt, LeavesEverythingAsItWas) {
@@ -45,17 +53,18 @@ TEST(ImplicitAttempt, LeavesEverythingAsItWas) {
   run(sim, [](Simulation&) {});
   const State state = sim.motion.state;
   const Pose pose = sim.motion.pose;
-  const FaceSet c = sim.motion.contacts;
+  load_tiles(sim);
+  const FaceSet c = rows_of(sim);
   const std::vector<double> damping = sim.accounts.damping_work.joules;
   ImplicitSettings settings;
   settings.step = 1e-2;
   settings.displacement_limit = 1e-5;
-  const Attempt attempt =
-      newmark_step(sim.implicit,
-                   {sim.scene->blocks, sim.motion.masses, sim.motion.laws, sim.attached.springs,
-                    sim.scene->model.gravity},
-                   settings, sim.motion.state, sim.motion.pose, sim.motion.contacts,
-                   sim.motion.forces, sim.accounts.damping_work.joules);
+  const Attempt attempt = newmark_step(sim.implicit,
+                                       {sim.scene->blocks, sim.motion.masses, sim.motion.laws,
+                                        sim.attached.springs, sim.scene->model.gravity},
+                                       settings, sim.motion.state, sim.motion.pose,
+                                       {sim.motion.contacts, sim.motion.tiled}, sim.motion.forces,
+                                       sim.accounts.damping_work.joules);
   ASSERT_EQ(attempt, Attempt::too_far);
   EXPECT_EQ(sim.motion.state.x, state.x);
   EXPECT_EQ(sim.motion.state.y, state.y);
@@ -68,10 +77,11 @@ TEST(ImplicitAttempt, LeavesEverythingAsItWas) {
       EXPECT_EQ((is.*column.values).values(), (was.*column.values).values()) << column.name;
     }
   };
-  expect_same(face_properties, sim.motion.contacts, c);
-  expect_same(face_columns, sim.motion.contacts.now, c.now);
-  expect_same(face_columns, sim.motion.contacts.before, c.before);
-  EXPECT_EQ(sim.motion.contacts.force, c.force);
+  const FaceSet is = rows_of(sim);
+  expect_same(face_properties, is, c);
+  expect_same(face_columns, is.now, c.now);
+  expect_same(face_columns, is.before, c.before);
+  EXPECT_EQ(is.force, c.force);
   EXPECT_EQ(sim.accounts.damping_work.joules, damping);
 }
 
@@ -81,6 +91,7 @@ TEST(ImplicitAttempt, ChangesNothingOfTheNextOne) {
     Simulation sim = scene(on_floor(block(0, 0.501, 0.0, "velocity = [1.0, -1.0]\n"),
                                     "method = 'dda'\nduration = 0.1\ntime_step = 1e-3\n"));
     run(sim, [](Simulation&) {});
+    load_tiles(sim);
     const ImplicitScene at{sim.scene->blocks, sim.motion.masses, sim.motion.laws,
                            sim.attached.springs, sim.scene->model.gravity};
     ImplicitSettings settings;
@@ -88,7 +99,8 @@ TEST(ImplicitAttempt, ChangesNothingOfTheNextOne) {
     settings.displacement_limit = 1e-5;
     auto attempt = [&] {
       return newmark_step(sim.implicit, at, settings, sim.motion.state, sim.motion.pose,
-                          sim.motion.contacts, sim.motion.forces, sim.accounts.damping_work.joules);
+                          {sim.motion.contacts, sim.motion.tiled}, sim.motion.forces,
+                          sim.accounts.damping_work.joules);
     };
     if (fail_first) {
       EXPECT_EQ(attempt(), Attempt::too_far);
