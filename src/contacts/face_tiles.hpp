@@ -1,4 +1,4 @@
-// The faces as the explicit step keeps them: tiles of neighbouring blocks, in each the faces of its
+// The faces as a step keeps them: tiles of neighbouring blocks, in each the faces of its
 // blocks in chunks of eight.
 //
 // A tile reads the positions of its own blocks and of the edges that face them (its halo), and
@@ -85,7 +85,8 @@ struct LimitColumns {
 };
 inline constexpr std::size_t limit_columns = sizeof(LimitColumns<double>) / sizeof(double);
 
-/// Work accumulated until step n - 1, J. Members as in FaceProperties.
+/// Work accumulated until step n - 1, or until n where steps are tried (tile_trials.hpp), J.
+/// Members as in FaceProperties.
 template <class C>
 struct FaceSumColumns {
   C friction_work, transfer, damping_work;
@@ -242,7 +243,8 @@ struct FaceTiles {
   std::vector<LaneBits> bits[2];     ///< [chunks] of steps n and n - 1 in turn
   std::vector<LaneBits> found[2];    ///< [chunks] of that step
   AlignedNumbers sums;               ///< [chunks][sum_columns][8]
-  AlignedNumbers limits;  ///< [chunks][2][8] LimitColumns; empty: they follow from normal forces
+  AlignedNumbers limits;  ///< [chunks][2][8] LimitColumns; empty: they follow from normal forces.
+                          ///< Faces must not change their places meanwhile, as those that sleep do
   std::vector<LaneBits> ever;   ///< [chunks] `opens`, `slides` of any step until n - 1
   std::vector<double> deepest;  ///< [chunks] as FaceStep::depth, largest in the step so far, m;
                                 ///< of a new list an upper bound of that
@@ -255,7 +257,7 @@ struct FaceTiles {
   }
   /// Of those found in the step:
   bool has_found(unsigned of, std::size_t k) const { return bit_of(found[now], of, k); }
-  /// Of any step until n - 1:
+  /// Of any step until then (FaceSumColumns):
   bool has_ever(unsigned of, std::size_t k) const { return bit_of(ever, of, k); }
   /// Whether anything is remembered of the faces of a chunk (TileNumbers).
   bool holds(std::size_t chunk) const { return numbers[tile_of_chunk[chunk]].holds(chunk); }

@@ -36,7 +36,7 @@ double barton_angle(const Law& law, double roughness, double sigma);
 
 /// Adds the slip up to n, puts the resulting strength in force, and opens joints that dilate by
 /// what the slip between n and n + 1 asks for. Requires pose.x1 at n, of which FaceSet::before is
-/// the memory, and pose.x at n + 1 or, with the implicit method, at n.
+/// the memory, and pose.x at n + 1.
 void update_joint_laws(FaceSet& faces, const BlockSet& blocks, const Pose& pose,
                        const LawTable& laws);
 /// A face at n: where `complete` is false only what it remembers, and what follows from its corners

@@ -1,4 +1,4 @@
-// Between the tiles of the explicit step (contacts/face_tiles.hpp) and the rows of the FaceSet, of
+// Between the tiles of a step (contacts/face_tiles.hpp) and the rows of the FaceSet, of
 // which the step keeps up to date only what is decided.
 #pragma once
 

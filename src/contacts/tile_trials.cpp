@@ -1,6 +1,7 @@
 #include "contacts/tile_trials.hpp"
 
 #include <algorithm>
+#include <limits>
 
 #include "base/parallel.hpp"
 #include "contacts/tile_columns.hpp"
@@ -54,6 +55,7 @@ void keep_trial(FaceTiles& t, const FaceSet& c) {
 
 void drop_trial(FaceTiles& t) {
   copy_memory(t, t.now, 1 - t.now);
+  t.deepest.assign(t.chunks(), std::numeric_limits<double>::infinity());  // an upper bound
 }
 
 }  // namespace edda

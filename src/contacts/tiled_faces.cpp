@@ -128,7 +128,8 @@ void FacesInStep::evaluate_chunks(const std::vector<Id>& chunks) {
   std::vector<Part> parts;
   for (std::size_t n = 0, end = 0; n < chunks.size(); n = end) {
     const std::size_t tile = tiles.tile_of_chunk[chunks[n]];
-    const bool some = tiles.kept[tile] != 0 && !tiles.tiles[tile].sleep.over;
+    const bool wakes = own_.sleep_part > 0.0 && tiles.tiles[tile].sleep.over;
+    const bool some = tiles.kept[tile] != 0 && !wakes;
     while (end < chunks.size() && tiles.tile_of_chunk[chunks[end]] == tile &&
            !(some && end - n == most))
       ++end;

@@ -195,7 +195,8 @@ void account_springs(const FaceSprings& s, const TrialFaces& of, const FaceScene
     // separated from this.
     const bool broke = std::binary_search(broken.begin(), broken.end(), static_cast<Id>(k));
     const double fracture = broke ? std::clamp(rest, 0.0, s.stored[k]) : 0.0;
-    c.friction_work[k] += friction;
+    const bool failed = c.failure[k] != 0.0 && !broke;  // since the last step
+    (failed ? c.fracture_work : c.friction_work)[k] += friction;
     c.fracture_work[k] += fracture;
     c.damping_work[k] += rest - fracture;
     if (t.has_found(lane_bits::opens, k)) c.opened[k] = 1.0;

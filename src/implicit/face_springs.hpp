@@ -22,7 +22,7 @@ struct TrialFaces {
 /// Face k at the positions where the faces have last been evaluated.
 FaceRow face_row(const TrialFaces& of, const BlockSet& blocks, const Pose& pose, std::size_t k);
 
-/// Data of one step, [nf] each.
+/// Data of one step, [nf] each but `undecided`.
 struct FaceSprings {
   std::vector<FaceEnds> normal;     ///< forces at the start of the step, N
   std::vector<double> cohesive;     ///< FaceFields::cohesive then
@@ -35,6 +35,7 @@ struct FaceSprings {
   bool first = false;  ///< nothing has moved yet: ends that almost touch count as closed
 };
 
+/// Begins a step; no face sleeps from now on.
 void begin_springs(FaceSprings& springs, const TrialFaces& of, const FaceScene& scene);
 
 /// Evaluates every face at the current positions, with return mapping from the slips at the start

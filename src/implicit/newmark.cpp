@@ -39,9 +39,10 @@ void begin(ImplicitSolver& s, const ImplicitScene& scene, const State& state, Po
   pose.x1 = pose.x;
   pose.y1 = pose.y;
   begin_springs(s.springs, of, scene.faces(pose));
+  // Of blocks that have none, none are summed.
+  if (s.on_faces.x[0].empty() || s.pattern_of != of.faces.rebuilds) s.on_faces = no_forces(b);
   if (s.pattern_of != of.faces.rebuilds) set_pattern(s, scene, state, pose, of);
   s.pattern_of = of.faces.rebuilds;
-  if (s.on_faces.x[0].size() != b.size()) s.on_faces = no_forces(b);
   s.moved = Eigen::VectorXd::Zero(s.matrix.lines());
   if (s.mean_velocity_x[0].empty()) {
     s.mean_velocity_x = state.vx;

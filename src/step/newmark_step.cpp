@@ -8,7 +8,6 @@
 
 #include "base/parallel.hpp"
 #include "contacts/evaluate_faces.hpp"
-#include "contacts/tile_decisions.hpp"
 #include "step/contact_search.hpp"
 #include "step/face_switching.hpp"
 #include "step/instant.hpp"
@@ -181,12 +180,9 @@ std::optional<Failure> step_newmark(Simulation& sim) {
   Accounts& accounts = sim.accounts;
   StageClock clock(motion.state.steps);
   TiledFaces& tiled = sim.motion.tiled;
-  load_tiles(sim);
+  load_tiles(sim, Begins::at_step_end);
   if (!tiled.ahead) motion.contacts.drop_states();
   tiled.ahead = true;
-  if (motion.laws.any_changes) {
-    update_joint_laws(motion.contacts, tiled.tiles, sim.scene->blocks, motion.pose, motion.laws);
-  }
   LoadsNow at_work;
   if (std::optional<Failure> failure = move_blocks(sim, at_work)) return failure;
   motion.on_contacts = sim.implicit.on_faces;

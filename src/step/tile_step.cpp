@@ -10,6 +10,7 @@
 #include "contacts/tile_loading.hpp"
 #include "contacts/tile_renewal.hpp"
 #include "contacts/tile_rows.hpp"
+#include "contacts/tile_trials.hpp"
 #include "step/contact_search.hpp"
 #include "step/face_switching.hpp"
 #include "step/simulation.hpp"
@@ -113,14 +114,16 @@ std::size_t blocks_of_tile(const Simulation& sim) {
 
 }  // namespace
 
-void load_tiles(Simulation& sim) {
+void load_tiles(Simulation& sim, Begins begins) {
   TiledFaces& own = sim.motion.tiled;
   own.threads = std::max(own.threads, omp_get_max_threads());
   const std::size_t of_tile = blocks_of_tile(sim);
   if (own.loaded && own.blocks == of_tile) return;
-  faces_to_change(sim);
-  load_tiles(own, sim.motion.contacts, sim.scene->blocks, sim.motion.state, sim.motion.pose,
+  FaceSet& faces = faces_to_change(sim);
+  if (begins == Begins::at_step_end) faces.now = faces.before;
+  load_tiles(own, faces, sim.scene->blocks, sim.motion.state, sim.motion.pose,
              sim.attached.ground.moves, of_tile);
+  if (begins == Begins::at_step_end) keep_trial(own.tiles, faces);
 }
 
 void place_in_tiles(Simulation& sim) {

@@ -1,4 +1,4 @@
-// The faces of the explicit step, in tiles (contacts/face_tiles.hpp): loaded when a step needs
+// The faces of a step, in tiles (contacts/face_tiles.hpp): loaded when a step needs
 // them, left when something else changes the faces. While they are in use Motion::contacts has
 // no states of the faces: only what is decided of them is that of the step.
 #pragma once
@@ -13,8 +13,12 @@ struct StepTaken;
 /// Whether the next step keeps the faces in tiles: where all that it reads of them is in there.
 bool steps_in_tiles(const Simulation& sim);
 
+/// Where a step begins: between two positions, as the leapfrog's, or at the end of the last step,
+/// the state at which is then all that counts (begin_from_step_end()).
+enum class Begins { between_steps, at_step_end };
+
 /// Takes the faces at n into tiles, unless they are; to be called before the blocks move.
-void load_tiles(Simulation& sim);
+void load_tiles(Simulation& sim, Begins begins = Begins::between_steps);
 
 /// Evaluates the faces at n + 1: memory, forces on the blocks; activity and bonds where they
 /// change.
