@@ -111,10 +111,11 @@ void begin_springs(FaceSprings& s, const TrialFaces& of, const FaceScene& scene)
   s.undecided.clear();
   s.first = false;
   const auto begin = [&](std::size_t k) {
+    const bool carries = touches(of, k);
     const FaceFields<double> m =
-        touches(of, k) ? face_row(of, scene.blocks, scene.pose, k).state : FaceFields<double>{};
+        carries ? face_row(of, scene.blocks, scene.pose, k).state : FaceFields<double>{};
     s.stored[k] = energy_of(m);
-    s.state[k] = touches(of, k) ? state_of(c, m, k) : 0;
+    s.state[k] = carries ? state_of(c, m, k) : 0;
     s.normal[k] = {m.normal_a + m.damping_a, m.normal_b + m.damping_b};
     s.cohesive[k] = m.cohesive;
     set_limits(s, of, k);
@@ -170,7 +171,6 @@ std::vector<Id> break_overloaded(FaceSprings& s, const TrialFaces& of, const Fac
   }
   note(s, of, broken);
   for (const Id k : broken) {
-    recall_work(c, t, k);
     break_bond(c, scene.blocks, scene.laws, face_row(of, scene.blocks, scene.pose, k).state, k);
     set_limits(s, of, k);
     load_decisions(t, c, scene.blocks, k);
