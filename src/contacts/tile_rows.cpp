@@ -4,6 +4,7 @@
 #include <iterator>
 
 #include "base/parallel.hpp"
+#include "contacts/evaluate_faces.hpp"
 #include "contacts/face_step.hpp"
 #include "contacts/tile_columns.hpp"
 
