@@ -7,10 +7,10 @@
 #include <map>
 #include <utility>
 
-#include "contacts/evaluate_faces.hpp"
 #include "contacts/search.hpp"
 #include "forces/step_bound.hpp"
 #include "step/contact_search.hpp"
+#include "step/tile_step.hpp"
 #include "wall.hpp"
 
 namespace edda {
@@ -38,7 +38,7 @@ void sizes(benchmark::internal::Benchmark* bench) {
 
 void PlaceFaces(benchmark::State& bench) {
   Simulation sim = settled(bench);
-  for (auto _ : bench) evaluate_faces(sim.motion.contacts, face_scene(sim), sim.motion.state.step);
+  for (auto _ : bench) evaluate_at_rest(sim, sim.motion.state.step);
   count(bench, sim);
 }
 BENCHMARK(PlaceFaces)->Apply(sizes);

@@ -24,6 +24,7 @@
 #include "memory.hpp"
 #include "scenes.hpp"
 #include "step/changes.hpp"
+#include "step/faces_now.hpp"
 #include "step/tile_step.hpp"
 #include "stopwatch.hpp"
 #include "true_step.hpp"
@@ -64,11 +65,10 @@ bool read_options(int argc, char** argv, Options& o) {
 }
 
 void describe(edda::BenchScene& scene, double made_in) {
-  update_face_rows(scene.sim);
   const Simulation& s = scene.sim;
   std::size_t closed = 0;
   for (std::size_t c = 0; c < s.motion.contacts.size(); ++c) {
-    if (edda::is_closed(s.motion.contacts, c)) ++closed;
+    if (edda::is_closed_now(s, c)) ++closed;
   }
   std::printf(
       "{\"blocks\": %zu, \"candidates\": %zu, \"closed\": %zu, \"step\": %.6g, "

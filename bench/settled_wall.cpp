@@ -15,9 +15,10 @@
 #include <unordered_map>
 
 #include "blocks/kinematics.hpp"
-#include "contacts/evaluate_faces.hpp"
 #include "contacts/face_reading.hpp"
+#include "contacts/tile_trials.hpp"
 #include "step/contact_search.hpp"
+#include "step/faces_now.hpp"
 #include "wall.hpp"
 
 namespace edda {
@@ -93,7 +94,6 @@ bool between_neighbours(const Sides& s) {
 }
 
 Equilibrium rest_of(Simulation& s, int columns) {
-  update_face_rows(s);
   const BlockSet& b = s.scene->blocks;
   const FaceSet& c = s.motion.contacts;
   Equilibrium rest;
@@ -112,8 +112,9 @@ Equilibrium rest_of(Simulation& s, int columns) {
   }
   for (std::size_t k = 0; k < c.size(); ++k) {
     const Sides sides = sides_of(b, c, k);
-    if (!between_neighbours(sides) || !is_closed(c, k)) continue;
-    rest.touches[key_of(sides, sides.first)] = {c.now.slip_a[k], c.now.slip_b[k]};
+    if (!between_neighbours(sides) || !is_closed_now(s, k)) continue;
+    const FaceFields face = face_row(s, k).state;
+    rest.touches[key_of(sides, sides.first)] = {face.slip_a, face.slip_b};
   }
   return rest;
 }
@@ -177,18 +178,21 @@ void put(Simulation& s, const Equilibrium& rest, int columns) {
 /// As at the start of a run, and then what the faces of the short wall remember.
 void touch(Simulation& s, const Equilibrium& rest, int columns) {
   const BlockSet& b = s.scene->blocks;
-  FaceSet& c = faces_to_change(s);
-  evaluate_faces(c, face_scene(s), 1.0);
-  begin_from_step_end(c);
+  put_faces(s, take_faces(s));  // where the blocks are
+  evaluate_at_rest(s, 1.0);
+  end_at_rest(s.motion.contacts, s.motion.tiled.tiles, b, s.motion.pose);
+  FaceStates states = take_faces(s);
+  const FaceSet& c = s.motion.contacts;
   for (std::size_t k = 0; k < c.size(); ++k) {
     const Sides sides = sides_of(b, c, k);
     if (!between_neighbours(sides)) continue;
     const Source from = stands_for(sides.first, rest.columns, columns);
     const auto found = rest.touches.find(key_of(sides, from.place));
     if (found == rest.touches.end()) continue;
-    c.before.slip_a[k] = found->second.slip_a;
-    c.before.slip_b[k] = found->second.slip_b;
+    states.before[k].slip_a = found->second.slip_a;
+    states.before[k].slip_b = found->second.slip_b;
   }
+  put_faces(s, states);
 }
 
 /// So many steps under `damping`, with the step that it allows.
@@ -304,7 +308,6 @@ Simulation settled_wall(int columns, int rows, const std::string& cache) {
   damping.local = 0.8;
   damp(s, damping, 200);
   damp(s, {}, 50);
-  update_face_rows(s);
   return s;
 }
 
@@ -319,7 +322,7 @@ double error_of_row_forces(const Simulation& s) {
   for (std::size_t k = 0; k < c.size(); ++k) {
     const Sides sides = sides_of(b, c, k);
     const int i = sides.first.row, j = sides.second.row;
-    if (i != j) force[std::max(i, j)] += normal_force(c, k);
+    if (i != j) force[std::max(i, j)] += normal_force(face_row(s, k));
   }
   double above = 0.0, error = 0.0;
   for (const auto& [row, of_row] : weight) {

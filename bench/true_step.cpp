@@ -5,10 +5,10 @@
 #include <random>
 #include <utility>
 
-#include "contacts/evaluate_faces.hpp"
 #include "contacts/face_bonds.hpp"
 #include "contacts/face_reading.hpp"
 #include "step/contact_search.hpp"
+#include "step/tile_step.hpp"
 
 namespace edda {
 namespace {
@@ -33,7 +33,7 @@ Field accelerations_of(Simulation& s) {
       place_vertices(s.scene->blocks, s.motion.state.x, s.motion.state.y, i, s.motion.pose.x,
                      s.motion.pose.y);
   }
-  evaluate_faces(s.motion.contacts, face_scene(s), s.motion.state.step);
+  evaluate_at_rest(s, s.motion.state.step);
   sum_face_forces(s);
   gather_forces(s.motion.forces, s.scene->blocks, s.motion.state, s.motion.pose,
                 s.motion.on_contacts, s.attached.springs, s.scene->model.gravity);
@@ -50,44 +50,45 @@ constexpr double nothing = 1e-12;
 
 /// Brings a face that is open to where it just touches: all along where its edges lie along each
 /// other, else with the corner that would come first.
-void let_touch(FaceSet& c, std::size_t k) {
+void let_touch(FaceSet& c, const FaceFields& m, std::size_t k) {
   constexpr double just = 1e-6;  // m, more than what the iteration moves anything by
-  const double da = c.now.closure_a[k], db = c.now.closure_b[k];
-  const bool along = c.now.cohesive[k] > 0.0;
+  const double da = m.closure_a, db = m.closure_b;
+  const bool along = m.cohesive > 0.0;
   c.locked_closure_a[k] += std::max(just - (along ? da : std::max(da, db)), 0.0);
   c.locked_closure_b[k] += std::max(just - (along ? db : std::max(da, db)), 0.0);
 }
 
 /// Springs that neither open nor slide. An end that is open stays so, or it would pull by all that
 /// it is apart.
-void hold_contacts(FaceSet& c, Carrying which) {
+void hold_contacts(FaceSet& c, const FaceStates& states, Carrying which) {
   constexpr double enough = 1e300;  // N
   double most = 0.0;
-  for (std::size_t k = 0; k < c.size(); ++k) most = std::max(most, c.now.energy[k]);
+  for (const FaceFields& m : states.now) most = std::max(most, m.energy);
   for (std::size_t k = 0; k < c.size(); ++k) {
-    const bool carries =
-        is_closed(c, k) && (c.carries_tension[k] > 0.0 || c.now.energy[k] > nothing * most);
-    const bool aside = c.acts[k] == 0.0 || c.now.gate[k] == 0.0;
+    const FaceFields& m = states.now[k];
+    const bool closed = m.energy > 0.0 || (c.bonded[k] > 0.0 && m.gate > 0.0);
+    const bool carries = closed && (c.carries_tension[k] > 0.0 || m.energy > nothing * most);
+    const bool aside = c.acts[k] == 0.0 || m.gate == 0.0;
     if (!carries && (which == Carrying::now || aside)) {
       c.stiffness[k] = c.shear_stiffness[k] = 0.0;
       continue;
     }
     const double before_a = c.locked_closure_a[k], before_b = c.locked_closure_b[k];
-    if (which == Carrying::may && c.carries_tension[k] == 0.0) let_touch(c, k);
-    const double da = c.now.closure_a[k] + c.locked_closure_a[k] - before_a;
-    const double db = c.now.closure_b[k] + c.locked_closure_b[k] - before_b;
+    if (which == Carrying::may && c.carries_tension[k] == 0.0) let_touch(c, m, k);
+    const double da = m.closure_a + c.locked_closure_a[k] - before_a;
+    const double db = m.closure_b + c.locked_closure_b[k] - before_b;
     if (std::min(da, db) > 0.0) c.carries_tension[k] = 1.0;
     c.bonded[k] = c.glued[k] = 1.0;
     c.tension[k] = enough;
   }
-  mark_bonded_chunks(c);
 }
 
 }  // namespace
 
 double true_critical_step(const Simulation& sim, Carrying which, int rounds) {
   Simulation s = sim;
-  hold_contacts(s.motion.contacts, which);
+  change_faces(
+      s, [&](FaceSet& faces, const FaceStates& states) { hold_contacts(faces, states, which); });
   const Nodes x0 = s.motion.state.x, y0 = s.motion.state.y;
   const Field at_rest = accelerations_of(s);
   std::mt19937 rng(1);

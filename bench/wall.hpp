@@ -71,7 +71,7 @@ inline Simulation wall(int columns, int rows, const std::string& solver = {}) {
 /// So many steps; ends the program if one fails.
 inline void take_steps(Simulation& sim, long steps) {
   for (long i = 0; i < steps; ++i) {
-    if (const auto failure = step_ahead(sim)) {
+    if (const auto failure = step(sim)) {
       std::fprintf(stderr, "step %ld: %s\n", i, failure->message.c_str());
       std::exit(1);
     }

@@ -1,13 +1,12 @@
-// Tables of numbers, one row per element, stored in chunks of rows:
-// [chunk][column][16]. A loop over several elements at once (base/vector_loop.hpp) so reads one
-// contiguous piece of memory, and the address of a column follows from that of the chunk.
+// Tables of numbers, one row per element, whose numbers lie side by side.
 //
 // The columns of a table are a struct of fields, `template <class C> struct Fields { C a, b; };`,
-// which is Fields<ChunkColumn> for access by the number of a row, Fields<double*> for a loop
-// over one chunk, and a list of these fields, `template <class C> constexpr Field<C> list[]`, whose
-// entries have the field as `values`.
+// which is Fields<RowColumn> for access by the number of a row, Fields<double> for one row, and a
+// list of these fields, `template <class C> constexpr Field<C> list[]`, whose entries have the
+// field as `values`.
 #pragma once
 
+#include <algorithm>
 #include <cassert>
 #include <cstddef>
 #include <iterator>
@@ -15,11 +14,7 @@
 #include <utility>
 #include <vector>
 
-#include "base/vector_loop.hpp"
-
 namespace edda {
-
-inline constexpr std::size_t chunk_rows = 16;
 
 /// Memory aligned to cache lines; otherwise every load of eight numbers would touch two of them.
 template <class T>
@@ -46,15 +41,15 @@ void resize_afresh(Vector& values, std::size_t size) {
 }
 
 /// One column of a table, [rows].
-class ChunkColumn {
+class RowColumn {
  public:
-  ChunkColumn() = default;
-  /// first: of row 0; stride: numbers from chunk to chunk.
-  ChunkColumn(double* first, std::size_t stride, std::size_t rows)
+  RowColumn() = default;
+  /// first: of row 0; stride: numbers from row to row.
+  RowColumn(double* first, std::size_t stride, std::size_t rows)
       : first_(first), stride_(stride), rows_(rows) {}
 
-  double operator[](std::size_t row) const { return first_[place(row)]; }
-  double& operator[](std::size_t row) { return first_[place(row)]; }
+  double operator[](std::size_t row) const { return first_[row * stride_]; }
+  double& operator[](std::size_t row) { return first_[row * stride_]; }
   std::size_t size() const { return rows_; }
 
   void fill(double value) {
@@ -71,92 +66,62 @@ class ChunkColumn {
   }
 
  private:
-  std::size_t place(std::size_t row) const { return row / chunk_rows * stride_ + row % chunk_rows; }
   double* first_ = nullptr;
   std::size_t stride_ = 0, rows_ = 0;
 };
 
-/// Rows with the columns that `list` names. The last chunk is filled up with rows that clear_rows()
-/// leaves at zero; a loop over it may need other numbers there.
+/// Rows with the columns that `list` names.
 template <class Columns, const auto& list>
-class ChunkTable : public Columns {
+class RowTable : public Columns {
  public:
-  ChunkTable() = default;
-  ChunkTable(const ChunkTable& other) : Columns(), cells_(other.cells_), rows_(other.rows_) {
-    bind();
-  }
-  ChunkTable(ChunkTable&& other) noexcept
+  RowTable() = default;
+  RowTable(const RowTable& other) : Columns(), cells_(other.cells_), rows_(other.rows_) { bind(); }
+  RowTable(RowTable&& other) noexcept
       : cells_(std::exchange(other.cells_, {})), rows_(std::exchange(other.rows_, 0)) {
     bind();
     other.bind();
   }
-  ChunkTable& operator=(ChunkTable other) noexcept {
+  RowTable& operator=(RowTable other) noexcept {
     cells_.swap(other.cells_);
     rows_ = other.rows_;
     bind();
     return *this;
   }
-  ~ChunkTable() = default;
+  ~RowTable() = default;
 
   std::size_t rows() const { return rows_; }
   /// Sets all values to 0.
   void clear_rows(std::size_t rows) {
     rows_ = rows;
-    cells_.assign((rows + chunk_rows - 1) / chunk_rows * stride, 0.0);
+    cells_.assign(rows * columns, 0.0);
     bind();
   }
-  /// As many rows, of any values; those that fill up the last chunk are 0.
+  /// As many rows, of any values.
   void set_rows(std::size_t rows) {
     rows_ = 0;  // where there is no memory
-    resize_afresh(cells_, (rows + chunk_rows - 1) / chunk_rows * stride);
+    resize_afresh(cells_, rows * columns);
     rows_ = rows;
     bind();
-    for (std::size_t row = rows; row % chunk_rows != 0; ++row) clear_row(row);
   }
   /// Sets the values of a row to 0.
-  void clear_row(std::size_t row) {
-    double* const first = begin_of_chunk(row / chunk_rows) + row % chunk_rows;
-    for (std::size_t i = 0; i < std::size(list); ++i) first[i * chunk_rows] = 0.0;
+  void clear_row(std::size_t row) { std::fill_n(&cells_[row * columns], columns, 0.0); }
+  /// Copies row `from` of another table to `row`.
+  void copy_row(std::size_t row, const RowTable& other, std::size_t from) {
+    std::copy_n(&other.cells_[from * columns], columns, &cells_[row * columns]);
   }
-  /// Copies row `from` of another table to `row`, in the chosen columns.
-  template <class Choice>
-  void copy_row(std::size_t row, const ChunkTable& other, std::size_t from, Choice chosen) {
-    double* const to = begin_of_chunk(row / chunk_rows) + row % chunk_rows;
-    const double* const is = other.begin_of_chunk(from / chunk_rows) + from % chunk_rows;
-    for (std::size_t i = 0; i < std::size(list); ++i) {
-      if (chosen(list[i])) to[i * chunk_rows] = is[i * chunk_rows];
-    }
-  }
-  void copy_row(std::size_t row, const ChunkTable& other, std::size_t from) {
-    copy_row(row, other, from, [](const auto&) { return true; });
-  }
-  double* begin_of_chunk(std::size_t q) { return cells_.data() + q * stride; }
-  const double* begin_of_chunk(std::size_t q) const { return cells_.data() + q * stride; }
-
-  static constexpr std::size_t stride = std::size(list) * chunk_rows;
-  static_assert(sizeof(Columns) == std::size(list) * sizeof(ChunkColumn), "a field is not listed");
 
  private:
+  static constexpr std::size_t columns = std::size(list);
+  static_assert(sizeof(Columns) == columns * sizeof(RowColumn), "a field is not listed");
+
   void bind() {
-    for (std::size_t i = 0; i < std::size(list); ++i) {
-      double* const begin = cells_.empty() ? nullptr : cells_.data() + i * chunk_rows;
-      this->*list[i].values = ChunkColumn(begin, stride, rows_);
+    for (std::size_t i = 0; i < columns; ++i) {
+      double* const begin = cells_.empty() ? nullptr : cells_.data() + i;
+      this->*list[i].values = RowColumn(begin, columns, rows_);
     }
   }
-  std::vector<double, InWholeLines<double>> cells_;
+  std::vector<double> cells_;
   std::size_t rows_ = 0;
 };
-
-/// The columns of a chunk, for a loop over its rows 0 to 15.
-template <class Fields, const auto& list, class Number>
-EDDA_INLINE Fields columns_of_chunk(Number* chunk) {
-  Fields fields;
-  static_assert(sizeof(Fields) == std::size(list) * sizeof(Number*), "a field is not listed");
-  [&]<std::size_t... i>(std::index_sequence<i...>) __attribute__((always_inline)) {
-    ((fields.*list[i].values = chunk + i * chunk_rows), ...);
-  }
-  (std::make_index_sequence<std::size(list)>{});
-  return fields;
-}
 
 }  // namespace edda

@@ -53,7 +53,7 @@ class Saver {
       sink_.put(name, std::span<const K>(kept));
     }
   }
-  void operator()(const std::string& name, const ChunkColumn& column) {
+  void operator()(const std::string& name, const RowColumn& column) {
     column_.resize(column.size());
     for (std::size_t row = 0; row < column.size(); ++row) column_[row] = column[row];
     sink_.put(name, std::span<const double>(column_));
@@ -101,7 +101,7 @@ class Loader {
     values.reserve(kept->size());
     for (const K v : *kept) values.push_back(static_cast<T>(v));
   }
-  void operator()(const std::string& name, ChunkColumn& column) {
+  void operator()(const std::string& name, RowColumn& column) {
     const std::vector<double>* kept = find<std::vector<double>>(name);
     if (kept == nullptr) return;
     if (kept->size() != column.size()) return note(name + " has another size");

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-#include "contacts/evaluate_faces.hpp"
+#include "contacts/evaluate_face.hpp"
 #include "contacts/face_preload.hpp"
 #include "contacts/inside.hpp"
 

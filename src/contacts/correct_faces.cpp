@@ -1,36 +1,37 @@
-// Corrections of the last step of faces (evaluate_faces.hpp).
+// Corrections of the last step of faces (evaluate_face.hpp).
 #include <algorithm>
 #include <cmath>
 
 #include "base/parallel.hpp"
-#include "contacts/evaluate_faces.hpp"
-#include "contacts/face_columns.hpp"
+#include "contacts/evaluate_face.hpp"
+#include "contacts/face_step.hpp"
 
 namespace edda {
 
-void correct_last_step(FaceSet& c, const BlockSet& b, const Pose& pose,
+void correct_last_step(const FaceSet& c, FaceStates& states, const BlockSet& b, const Pose& pose,
                        const std::vector<double>& old_x1, const std::vector<double>& old_y1) {
-  FaceMemory& m = c.before;
-  std::fill(m.inactive.begin(), m.inactive.end(), std::uint8_t{0});
   parallel_for(c.size(), [&](std::size_t k) {
+    const FaceFields& n = states.now[k];
+    FaceFields& m = states.before[k];
     const Face now = face_at(c, b, pose.x, pose.y, k), then = face_at(c, b, pose.x1, pose.y1, k);
     const auto slip_from = [&](const std::vector<double>& x1, const std::vector<double>& y1) {
       return slip_of(c, now, face_points(c, pose.x, pose.y, k), face_points(c, x1, y1, k), k);
     };
     const FaceEnds was = slip_from(old_x1, old_y1), is = slip_from(pose.x1, pose.y1);
-    // Ends that stick keep their force; ends that slide slip at the new velocity.
-    if (c.now.slip_a[k] == c.now.trial_a[k]) m.slip_a[k] += was.a - is.a;
-    if (c.now.slip_b[k] == c.now.trial_b[k]) m.slip_b[k] += was.b - is.b;
-    m.closure_a[k] = then.closure.a;
-    m.closure_b[k] = then.closure.b;
-    m.energy[k] = then.energy;
-    m.gate[k] = std::max(m.gate[k], then.gate);
+    // Ends that stick keep their force; ends that slide slip at the new velocity. What carries
+    // nothing at either step has no slip.
+    const bool has_slip = n.spring > 0.0 || m.spring > 0.0;
+    if (has_slip && n.slip_a == n.trial_a) m.slip_a += was.a - is.a;
+    if (has_slip && n.slip_b == n.trial_b) m.slip_b += was.b - is.b;
+    m.closure_a = then.closure.a;
+    m.closure_b = then.closure.b;
+    m.energy = then.energy;
+    m.gate = std::max(m.gate, then.gate);
   });
 }
 
-CornerForces recompute_shear(FaceSet& c, FaceFields<double>& m, const Face& face,
-                             const FacePoints& at, const FacePoints& then, double alpha,
-                             std::size_t k) {
+CornerForces recompute_shear(FaceSet& c, FaceFields& m, const Face& face, const FacePoints& at,
+                             const FacePoints& then, double alpha, std::size_t k) {
   const FaceEnds here = slip_of(c, face, at, then, k);
   const double spring = m.spring, cohesion = 0.5 * c.cohesion[k] * face.cohesive;
   const auto again = [&](double normal, double trial, double slipped, double& force, double& slip) {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "contacts/evaluate_faces.hpp"
+#include "contacts/evaluate_face.hpp"
 #include "contacts/face_energy.hpp"
 #include "contacts/face_reading.hpp"
 #include "contacts/find_faces.hpp"
@@ -19,8 +19,7 @@ void glue_for_now(FaceSet& c, std::size_t k) {
   c.glued[k] = c.bonded[k] = c.carries_tension[k] = 1.0;
 }
 
-BondFailure failure_now(const FaceSet& c, const BlockSet& b, const FaceFields<double>& now,
-                        std::size_t k) {
+BondFailure failure_now(const FaceSet& c, const BlockSet& b, const FaceFields& now, std::size_t k) {
   return failure_of(
       {c.bonded[k] > 0.0, c.carries_tension[k] > 0.0, c.glued[k] > 0.0, c.friction[k],
        c.cohesion[k], c.tension[k], c.bond_strength, drawn_gap * smaller_size(c, b, k)},
@@ -48,7 +47,7 @@ namespace {
 
 /// Lets a bonded joint be closed without stress where drawing has left a gap or an overlap. It is
 /// one from the beginning, so that its first step decides nothing of it (decide_activity()).
-void fit(FaceSet& c, const BlockSet& b, const Face& face, std::size_t k) {
+void fit(FaceSet& c, FaceStates& states, const BlockSet& b, const Face& face, std::size_t k) {
   const double most = drawn_gap * smaller_size(c, b, k);
   const auto correction = [&](double closure) {
     const double off = std::abs(closure);
@@ -56,7 +55,7 @@ void fit(FaceSet& c, const BlockSet& b, const Face& face, std::size_t k) {
   };
   c.locked_closure_a[k] += correction(face.closure.a);
   c.locked_closure_b[k] += correction(face.closure.b);
-  c.before.gate[k] = face.gate;
+  states.before[k].gate = face.gate;
 }
 
 void set_residual_tension(FaceSet& c, const LawTable& laws, std::size_t k) {
@@ -75,7 +74,8 @@ void set_residual_strength(FaceSet& c, const LawTable& laws, std::size_t k) {
   c.slip_so_far[k] = first_slip(law);
 }
 
-void bond_faces(FaceSet& c, const BlockSet& b, const Pose& pose, const LawTable& laws) {
+void bond_faces(FaceSet& c, FaceStates& states, const BlockSet& b, const Pose& pose,
+                const LawTable& laws) {
   bool changes = false;
   for (std::size_t k = 0; k < c.size(); ++k) {
     const Id e = c.edge[k], f = c.facing[k];
@@ -97,7 +97,7 @@ void bond_faces(FaceSet& c, const BlockSet& b, const Pose& pose, const LawTable&
       changes = true;
     }
     if (!has_bond) continue;
-    fit(c, b, face, k);
+    fit(c, states, b, face, k);
     face = face_at(c, b, pose.x, pose.y, k);
     const bool flush =
         std::min(face.closure.a, face.closure.b) >= -touching_gap * smaller_size(c, b, k);
@@ -111,14 +111,13 @@ void bond_faces(FaceSet& c, const BlockSet& b, const Pose& pose, const LawTable&
     c.tension[k] = law.peak_tension * laws.thickness;
   }
   if (changes) complete_faces(c, b, laws);
-  mark_bonded_chunks(c);
 }
 
-bool bond_fails(const FaceSet& c, const BlockSet& b, const FaceFields<double>& now, std::size_t k) {
+bool bond_fails(const FaceSet& c, const BlockSet& b, const FaceFields& now, std::size_t k) {
   return failure_now(c, b, now, k).any();
 }
 
-void break_bond(FaceSet& c, const BlockSet& b, const LawTable& laws, const FaceFields<double>& now,
+void break_bond(FaceSet& c, const BlockSet& b, const LawTable& laws, const FaceFields& now,
                 std::size_t k) {
   // What cracks from one end as it bends is whole at the other, which is pressed.
   const bool cracks = c.bonded[k] > 0.0 && c.carries_tension[k] > 0.0 &&
@@ -139,32 +138,21 @@ void account_failure_energy(FaceSet& c, double lost, std::size_t k) {
   c.transfer[k] += std::min(lost, 0.0);
 }
 
-void glue_faces(FaceSet& c, bool also_later) {
+void glue_faces(FaceSet& c, const FaceStates& states, bool also_later) {
   c.gluing = also_later;
   for (std::size_t k = 0; k < c.size(); ++k) {
-    const FaceEnds drawn{c.now.closure_a[k] - c.locked_closure_a[k],
-                         c.now.closure_b[k] - c.locked_closure_b[k]};
-    if (c.glued[k] == 0.0 && meets_within(c, c.noise, k) &&
-        lies_flush_as_drawn(drawn, c.now.length[k]))
+    const FaceFields& m = states.now[k];
+    const FaceEnds drawn{m.closure_a - c.locked_closure_a[k], m.closure_b - c.locked_closure_b[k]};
+    if (c.glued[k] == 0.0 && meets_within(FaceRow{c, k, m, {}, false, false}, c.noise) &&
+        lies_flush_as_drawn(drawn, m.length))
       glue_for_now(c, k);
   }
-  mark_bonded_chunks(c);
 }
 
 bool glue_if_whole(FaceSet& c, FaceEnds closure, std::size_t k) {
   if (std::min(closure.a, closure.b) < 0.0) return false;
   glue_for_now(c, k);
   return true;
-}
-
-void glue_pressed(FaceSet& c) {
-  bool any = false;
-  for (std::size_t k = 0; k < c.size(); ++k) {
-    const bool pressed = c.before.energy[k] > 0.0 && c.now.energy[k] > 0.0;
-    if (c.glued[k] > 0.0 || !pressed) continue;
-    any = glue_if_whole(c, {c.now.closure_a[k], c.now.closure_b[k]}, k) || any;
-  }
-  if (any) mark_bonded_chunks(c);
 }
 
 void unglue_faces(FaceSet& c, const BlockSet& b, const Pose& pose) {
@@ -179,31 +167,16 @@ void unglue_faces(FaceSet& c, const BlockSet& b, const Pose& pose) {
     account_failure_energy(c, stored - normal_energy(c, b, pose, k), k);
     c.mark_failure(k, 1.0);
   }
-  mark_bonded_chunks(c);
 }
 
 void set_face_dashpots(FaceSet& c, const LawTable& laws, double damping) {
   // Dashpots that are removed have yet to do their work of the current step.
   c.dashpots = damping > 0.0 || laws.any_dashpots || c.dashpots;
-  for (const auto column : dashpot_columns) {
-    // Nothing writes these columns where there are no dashpots.
-    if (!c.dashpots) {
-      (c.now.*column).fill(0.0);
-      (c.before.*column).fill(0.0);
-    }
-  }
   for (std::size_t k = 0; k < c.size(); ++k) {
     const Law& law = laws.rows[c.law[k]];
     c.zeta[k] = laws.damping_of(law, damping);
     c.shear_zeta[k] = law.dashpots ? law.shear_damping : 0.0;
     c.rebound[k] = law.dashpots ? law.rebound : 0.0;
-  }
-}
-
-void mark_bonded_chunks(FaceSet& c) {
-  c.bonds.assign(c.chunks(), 0);
-  for (std::size_t k = 0; k < c.size(); ++k) {
-    if (c.bonded[k] > 0.0 || c.carries_tension[k] > 0.0) c.bonds[k / FaceSet::chunk] = 1;
   }
 }
 

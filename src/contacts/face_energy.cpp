@@ -3,8 +3,7 @@
 #include <algorithm>
 #include <array>
 
-#include "contacts/evaluate_faces.hpp"
-#include "contacts/face_columns.hpp"
+#include "contacts/evaluate_face.hpp"
 
 namespace edda {
 namespace {
@@ -58,13 +57,6 @@ double face_energy(const FaceSet& c, const BlockSet& b, const Pose& pose, const 
     shear = old.spring * (had.a * (had.a + slip.a) + had.b * (had.b + slip.b));
   }
   return normal_energy_to(face, c, b, pose, k) + 0.5 * shear;
-}
-
-double face_energy(const FaceSet& c, const BlockSet& b, const Pose& pose, std::size_t k) {
-  const FaceMemory& m = c.before;
-  const SpringsOfFace springs{m.spring[k], {m.slip_a[k], m.slip_b[k]}, c.now.energy[k] > 0.0};
-  if (!springs.stores && c.carries_tension[k] == 0.0 && !springs.have_slip()) return 0.0;
-  return face_energy(c, b, pose, springs, face_at(c, b, pose.x, pose.y, k), k);
 }
 
 }  // namespace edda

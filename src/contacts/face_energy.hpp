@@ -27,7 +27,6 @@ struct SpringsOfFace {
 /// at_n: the face at n, which needs to be right where it stores energy or its springs have slip.
 double face_energy(const FaceSet& faces, const BlockSet& blocks, const Pose& pose,
                    const SpringsOfFace& springs, const Face& at_n, std::size_t k);
-double face_energy(const FaceSet& faces, const BlockSet& blocks, const Pose& pose, std::size_t k);
 
 /// The part of face_energy() that is due to the normal pressure, J.
 double normal_energy(const FaceSet& faces, const BlockSet& blocks, const Pose& pose, std::size_t k);

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "contacts/evaluate_faces.hpp"
+#include "contacts/evaluate_face.hpp"
 #include "contacts/face_bonds.hpp"
 #include "contacts/joint_laws.hpp"
 #include "contacts/joint_strength.hpp"
@@ -73,8 +73,9 @@ FaceEnds locked_closure(const FaceSet& c, const Face& face, std::size_t k) {
   return {closure(face.xi.a, face.eta.a), closure(face.xi.b, face.eta.b)};
 }
 
-std::vector<JointStress> preload_faces(FaceSet& c, const BlockSet& b, const Pose& pose,
-                                       const LawTable& laws, const FaceTraction& traction) {
+std::vector<JointStress> preload_faces(FaceSet& c, FaceStates& states, const BlockSet& b,
+                                       const Pose& pose, const LawTable& laws,
+                                       const FaceTraction& traction) {
   std::vector<JointStress> joints(laws.rows.size());
   std::vector<RequiredForces> required;
   lock_pressures(c, b, traction);
@@ -107,29 +108,18 @@ std::vector<JointStress> preload_faces(FaceSet& c, const BlockSet& b, const Pose
       const double pressing = dot(face.force.q1 + face.force.q2, n);
       if (pressing != 0.0) more *= std::clamp((normal.a + normal.b) / pressing, 0.5, 2.0);
     }
-    FaceMemory& m = c.before;
-    m.closure_a[k] = face.closure.a;
-    m.closure_b[k] = face.closure.b;
-    m.energy[k] = face.energy;
-    m.normal_a[k] = face.normal.a;
-    m.normal_b[k] = face.normal.b;
-    m.gate[k] = face.gate;
-    m.length[k] = m.overlap[k] = face.length;
-    m.cohesive[k] = face.cohesive;
-    m.xi_a[k] = face.xi.a;
-    m.xi_b[k] = face.xi.b;
-    m.eta_a[k] = face.eta.a;
-    m.eta_b[k] = face.eta.b;
-    m.spring[k] = 0.5 * c.shear_stiffness[k] * face.length * face.gate;
-    m.shear_a[k] = shear.a;
-    m.shear_b[k] = shear.b;
-    m.slip_a[k] = -shear.a / m.spring[k];
-    m.slip_b[k] = -shear.b / m.spring[k];
+    FaceFields& m = states.before[k];
+    take_element(m, face);
+    m.overlap = face.length;
+    m.spring = 0.5 * c.shear_stiffness[k] * face.length * face.gate;
+    m.shear_a = shear.a;
+    m.shear_b = shear.b;
+    m.slip_a = -shear.a / m.spring;
+    m.slip_b = -shear.b / m.spring;
   }
-  put_strengths_in_force(c, laws);
+  put_strengths_in_force(c, states, laws);
   for (const RequiredForces& a : required) add_to_joint(joints[c.law[a.face]], c, a);
-  std::fill(c.before.inactive.begin(), c.before.inactive.end(), std::uint8_t{0});
-  c.now = c.before;
+  states.now = states.before;
   return joints;
 }
 

@@ -8,6 +8,7 @@
 #include "blocks/initial_stress.hpp"
 #include "blocks/pose.hpp"
 #include "contacts/face_set.hpp"
+#include "contacts/face_states.hpp"
 #include "contacts/laws.hpp"
 
 namespace edda {
@@ -28,11 +29,12 @@ struct JointStress {
 /// Loads each face that touches with the traction of the initial stress on it. Its ends receive the
 /// locked closure, and its shear springs the elastic slip, of the two end forces that have the
 /// resultant and the moment of the traction, so that the blocks stay as drawn. Edges remember the
-/// pressure for faces that they form later (locked_closure()). Fills `before` as if nothing had
+/// pressure for faces that they form later (locked_closure()). Fills their states as if nothing had
 /// moved. Returns the demand on the joints, by row of the laws; whether bonds fail or friction
 /// limits the shear is decided when the faces are evaluated.
-std::vector<JointStress> preload_faces(FaceSet& faces, const BlockSet& blocks, const Pose& pose,
-                                       const LawTable& laws, const FaceTraction& traction);
+std::vector<JointStress> preload_faces(FaceSet& faces, FaceStates& states, const BlockSet& blocks,
+                                       const Pose& pose, const LawTable& laws,
+                                       const FaceTraction& traction);
 
 /// Closure at the ends of face k that the pressure locked into its two edges requires, m.
 FaceEnds locked_closure(const FaceSet& faces, const Face& face, std::size_t k);

@@ -7,6 +7,7 @@
 
 #include "blocks/pose.hpp"
 #include "contacts/face_set.hpp"
+#include "contacts/face_states.hpp"
 #include "contacts/joint_strength.hpp"
 
 namespace edda {
@@ -29,7 +30,7 @@ inline std::pair<Id, Id> blocks_of_face(const BlockSet& b, const FaceSet& f, std
 struct FaceRow {
   const FaceSet& of;
   std::size_t k;
-  FaceFields<double> state;
+  FaceFields state;
   CornerForces force;
   bool opened, slipped;  ///< it has, after having been closed; it has at least once
 };
@@ -38,9 +39,6 @@ struct FaceRow {
 inline bool is_closed(const FaceRow& r) {
   return r.state.energy > 0.0 || (r.of.bonded[r.k] > 0.0 && r.state.gate > 0.0);
 }
-inline bool is_closed(const FaceSet& f, std::size_t k) {
-  return f.now.energy[k] > 0.0 || (f.bonded[k] > 0.0 && f.now.gate[k] > 0.0);
-}
 
 /// The larger drawn closure of the two ends of face k, m, where they are closed by so much.
 inline double drawn_closure(const FaceSet& f, FaceEnds closure, std::size_t k) {
@@ -48,9 +46,6 @@ inline double drawn_closure(const FaceSet& f, FaceEnds closure, std::size_t k) {
 }
 inline double closure_of(const FaceRow& r) {
   return drawn_closure(r.of, {r.state.closure_a, r.state.closure_b}, r.k);
-}
-inline double closure_of(const FaceSet& f, std::size_t k) {
-  return drawn_closure(f, {f.now.closure_a[k], f.now.closure_b[k]}, k);
 }
 
 /// Whether the face is closed, or its edges touch within this gap, m.
@@ -70,11 +65,11 @@ inline double narrower_radius(const BlockSet& b, const FaceSet& f, std::size_t k
 /// Normal force, N, positive in compression; shear force, N, positive where it drives the block of
 /// `facing` along the edge.
 inline double normal_force(const FaceRow& r) {
-  const FaceFields<double>& m = r.state;
+  const FaceFields& m = r.state;
   return m.normal_a + m.normal_b + m.damping_a + m.damping_b;
 }
 inline double shear_force(const FaceRow& r) {
-  const FaceFields<double>& m = r.state;
+  const FaceFields& m = r.state;
   return m.shear_a + m.shear_b + m.shear_damping_a + m.shear_damping_b;
 }
 
@@ -87,7 +82,7 @@ inline double shear_strength(const FaceRow& r) {
 
 /// Whether Coulomb's limit has cut the shear force of one of its ends in the last step.
 inline bool slides(const FaceRow& r) {
-  const FaceFields<double>& m = r.state;
+  const FaceFields& m = r.state;
   return is_closed(r) && r.of.bonded[r.k] == 0.0 &&
          is_cut(FaceEnds{m.trial_a, m.trial_b}, FaceEnds{m.slip_a, m.slip_b});
 }
@@ -124,44 +119,6 @@ inline Vec2 deeper_end(const FacePoints& p, FaceEnds closure, FaceEnds of_edge,
   const double xi = b_is ? of_edge.b : of_edge.a, eta = b_is ? of_facing.b : of_facing.a;
   const bool of_first = xi == 0.0 || xi == 1.0;
   return of_first ? (1.0 - xi) * p.p1 + xi * p.p2 : eta * p.q1 + (1.0 - eta) * p.q2;
-}
-
-// The same of face k of a list whose states are at n.
-inline CornerForces corner_forces(const FaceSet& f, std::size_t k) {
-  const double* const on = &f.force[8 * k];
-  return {{on[0], on[1]}, {on[2], on[3]}, {on[4], on[5]}, {on[6], on[7]}};
-}
-inline FaceRow face_row(const FaceSet& f, std::size_t k) {
-  return {f, k, row_of(f.now, k), corner_forces(f, k), f.opened[k] > 0.0, f.slipped[k] > 0.0};
-}
-inline bool meets_within(const FaceSet& f, double gap, std::size_t k) {
-  return meets_within(face_row(f, k), gap);
-}
-inline double normal_force(const FaceSet& f, std::size_t k) {
-  return normal_force(face_row(f, k));
-}
-inline double shear_force(const FaceSet& f, std::size_t k) {
-  return shear_force(face_row(f, k));
-}
-inline double shear_strength(const FaceSet& f, std::size_t k) {
-  return shear_strength(face_row(f, k));
-}
-inline bool slides(const FaceSet& f, std::size_t k) {
-  return slides(face_row(f, k));
-}
-inline Vec2 force_on_facing(const FaceSet& f, std::size_t k) {
-  return force_on_facing(face_row(f, k));
-}
-inline FaceSpan span_of(const FaceSet& f, const Pose& pose, std::size_t k) {
-  return span_of(face_row(f, k), pose);
-}
-inline Vec2 middle_of(const FaceSet& f, const Pose& pose, std::size_t k) {
-  return middle_of(face_row(f, k), pose);
-}
-inline Vec2 deeper_end(const FaceSet& f, const Pose& pose, std::size_t k) {
-  const FaceFields<double> m = row_of(f.now, k);
-  return deeper_end(face_points(f, pose.x, pose.y, k), {m.closure_a, m.closure_b}, {m.xi_a, m.xi_b},
-                    {m.eta_a, m.eta_b});
 }
 
 }  // namespace edda

@@ -15,113 +15,6 @@
 
 namespace edda {
 
-/// State of the faces at a step. All of it follows from the positions, except the slip.
-template <class C>
-struct FaceFields {
-  C closure_a, closure_b;      ///< d at the ends, m
-  C energy;                    ///< U of the normal pressure, J
-  C normal_a, normal_b;        ///< normal force at the ends, N
-  C shear_a, shear_b;          ///< T at the ends, N
-  C slip_a, slip_b;            ///< elastic slip u, m: T = -spring u
-  C trial_a, trial_b;          ///< elastic slip before Coulomb's limit, m
-  C spring;                    ///< stiffness of the shear spring of each end, N/m
-  C length;                    ///< L, m; 0: none (overlaps())
-  C overlap;                   ///< length that the two shear springs represent, m
-  C cohesive;                  ///< length along which cohesion acts, m
-  C gate;                      ///< w W
-  C xi_a, xi_b, eta_a, eta_b;  ///< positions of the ends along the edges
-  C switched;                  ///< 1: another set of ends is closed than at the step before
-  C friction_work;             ///< dissipated by friction in the last step, J
-  C transfer;  ///< lost in the last step by changes of the overlap, no physical process, J
-  C damping_a, damping_b;              ///< forces of the normal dashpots, N
-  C shear_damping_a, shear_damping_b;  ///< forces of the shear dashpots, N
-  C strike_a, strike_b;                ///< speed at which the ends closed (strike_speed()), m/s
-  C damping_work;  ///< work of the dashpot forces at n in the last step, from n - 1 to n, J
-  C damping_due;   ///< work of the dashpot forces at n - 1 in it, the last that they do, J
-};
-
-/// Fills what follows from the corners of a face, which is this element there.
-inline void take_element(FaceFields<double>& m, const Face& face) {
-  m.closure_a = face.closure.a;
-  m.closure_b = face.closure.b;
-  m.energy = face.energy;
-  m.normal_a = face.normal.a;
-  m.normal_b = face.normal.b;
-  m.length = larger(face.length, 0.0);
-  m.cohesive = face.cohesive;
-  m.gate = face.gate;
-  m.xi_a = face.xi.a;
-  m.xi_b = face.xi.b;
-  m.eta_a = face.eta.a;
-  m.eta_b = face.eta.b;
-}
-
-/// The columns of FaceFields: name, unit and member.
-template <class C>
-struct FaceField {
-  const char* name;
-  const char* unit;
-  C FaceFields<C>::*values;
-};
-template <class C>
-inline constexpr FaceField<C> face_fields[] = {
-    {"closure_a", "m", &FaceFields<C>::closure_a},
-    {"closure_b", "m", &FaceFields<C>::closure_b},
-    {"energy", "J", &FaceFields<C>::energy},
-    {"normal_a", "N", &FaceFields<C>::normal_a},
-    {"normal_b", "N", &FaceFields<C>::normal_b},
-    {"shear_a", "N", &FaceFields<C>::shear_a},
-    {"shear_b", "N", &FaceFields<C>::shear_b},
-    {"slip_a", "m", &FaceFields<C>::slip_a},
-    {"slip_b", "m", &FaceFields<C>::slip_b},
-    {"trial_a", "m", &FaceFields<C>::trial_a},
-    {"trial_b", "m", &FaceFields<C>::trial_b},
-    {"spring", "N/m", &FaceFields<C>::spring},
-    {"length", "m", &FaceFields<C>::length},
-    {"overlap", "m", &FaceFields<C>::overlap},
-    {"cohesive", "m", &FaceFields<C>::cohesive},
-    {"gate", "1", &FaceFields<C>::gate},
-    {"xi_a", "1", &FaceFields<C>::xi_a},
-    {"xi_b", "1", &FaceFields<C>::xi_b},
-    {"eta_a", "1", &FaceFields<C>::eta_a},
-    {"eta_b", "1", &FaceFields<C>::eta_b},
-    {"switched", "1", &FaceFields<C>::switched},
-    {"friction_work", "J", &FaceFields<C>::friction_work},
-    {"transfer", "J", &FaceFields<C>::transfer},
-    {"damping_a", "N", &FaceFields<C>::damping_a},
-    {"damping_b", "N", &FaceFields<C>::damping_b},
-    {"shear_damping_a", "N", &FaceFields<C>::shear_damping_a},
-    {"shear_damping_b", "N", &FaceFields<C>::shear_damping_b},
-    {"strike_a", "m/s", &FaceFields<C>::strike_a},
-    {"strike_b", "m/s", &FaceFields<C>::strike_b},
-    {"damping_work", "J", &FaceFields<C>::damping_work},
-    {"damping_due", "J", &FaceFields<C>::damping_due}};
-inline constexpr auto& face_columns = face_fields<ChunkColumn>;
-
-/// Those of dashpots, which are written only where FaceSet::dashpots is set.
-inline constexpr ChunkColumn FaceFields<ChunkColumn>::*dashpot_columns[] = {
-    &FaceFields<ChunkColumn>::damping_a,       &FaceFields<ChunkColumn>::damping_b,
-    &FaceFields<ChunkColumn>::shear_damping_a, &FaceFields<ChunkColumn>::shear_damping_b,
-    &FaceFields<ChunkColumn>::strike_a,        &FaceFields<ChunkColumn>::strike_b,
-    &FaceFields<ChunkColumn>::damping_work,    &FaceFields<ChunkColumn>::damping_due};
-
-struct FaceMemory : ChunkTable<FaceFields<ChunkColumn>, face_fields<ChunkColumn>> {
-  std::vector<std::uint8_t> inactive;  ///< [chunks] 1: no face in it carries load now or did at the
-                                       ///< step before
-};
-
-/// The state of one face, row k of `m`.
-inline FaceFields<double> row_of(const FaceMemory& m, std::size_t k) {
-  FaceFields<double> row;
-  for (std::size_t i = 0; i < std::size(face_columns); ++i)
-    row.*face_fields<double>[i].values = (m.*face_columns[i].values)[k];
-  return row;
-}
-inline void set_row(FaceMemory& m, std::size_t k, const FaceFields<double>& row) {
-  for (std::size_t i = 0; i < std::size(face_columns); ++i)
-    (m.*face_columns[i].values)[k] = row.*face_fields<double>[i].values;
-}
-
 /// Properties of a face, its current strength, and its history. The columns that a step reads come
 /// first.
 template <class C>
@@ -200,58 +93,31 @@ inline constexpr FaceProperty<C> face_property_list[] = {
     {"damping_work", "J", &FaceProperties<C>::damping_work, true},
     {"fracture_work", "J", &FaceProperties<C>::fracture_work, true},
     {"transfer", "J", &FaceProperties<C>::transfer, true}};
-inline constexpr auto& face_properties = face_property_list<ChunkColumn>;
+inline constexpr auto& face_properties = face_property_list<RowColumn>;
 
 /// Value of FaceSet::failure where a bond breaks.
 inline constexpr double bond_breaks = 2.0;
 
-struct FaceSet : ChunkTable<FaceProperties<ChunkColumn>, face_property_list<ChunkColumn>> {
+struct FaceSet : RowTable<FaceProperties<RowColumn>, face_property_list<RowColumn>> {
   std::size_t size() const { return edge.size(); }
 
   // Identity. Filled by find_faces(); fixed between two searches.
   std::vector<Id> edge, facing;          ///< e < f, of two blocks
   std::vector<Id> edge_end, facing_end;  ///< their second corners
-  std::vector<Id> corners;               ///< their four corners, [chunk][4][16]
   std::vector<std::uint16_t> law;        ///< row of the LawTable
 
   bool dashpots = false;  ///< some face has dashpots, or had them in the current step
   bool slip_laws =
       false;  ///< a joint's strength or opening depends on its slip (LawTable::any_changes)
 
-  // Empty while tiles keep the states of the faces (contacts/face_tiles.hpp).
-  FaceMemory now;     ///< state at step n
-  FaceMemory before;  ///< state at n - 1; while step n + 1 is tried: at n
-
-  /// Forces on the corners at n, N, of face k from 8 k on: x and y at start and end of `edge`, at
-  /// start and end of `facing`. Whole chunks are allocated.
-  std::vector<double> force;
-
-  /// Sets all states and forces to 0, that is, to those of faces which have never carried load.
-  void clear_states() {
-    for (FaceMemory* m : {&now, &before}) {
-      m->clear_rows(size());
-      m->inactive.assign(chunks(), 1);
-    }
-    force.assign(force_size(), 0.0);
-  }
-  /// Gives their memory back.
-  void drop_states() {
-    now = before = FaceMemory();
-    force = std::vector<double>();
-  }
-
-  /// The faces of each edge: [nv + 1] offsets, and [2 nf] positions in `force` where its four
-  /// numbers begin. Sorted by the edge on the other side, so that sums do not depend on the order
-  /// of the faces.
+  /// The faces of each edge: [nv + 1] offsets, and [2 nf] for each face 8 k, or 8 k + 4 where
+  /// the edge is `facing`: where the four numbers on it begin in a list of eight for each face, the
+  /// forces on its corners. Sorted by the edge on the other side, so that sums do not depend on the
+  /// order of the faces.
   std::vector<Id> begin_of_edge, on_edge;
 
-  static constexpr std::size_t chunk = chunk_rows;
-  static constexpr std::size_t run = 32 * chunk;  ///< faces per task of a thread
+  static constexpr std::size_t chunk = 16;  ///< faces that share a mark of `chunk_fails`
   std::size_t chunks() const { return (size() + chunk - 1) / chunk; }
-  std::size_t force_size() const { return 8 * chunk * chunks(); }
-  std::vector<std::uint8_t> switching;  ///< [chunks] 1: ends of a face in it open or close
-  std::vector<double> deepest;  ///< [chunks] largest drawn closure of a face that carries load, m
-  std::vector<std::uint8_t> bonds;        ///< [chunks] 1: a face in it is bonded or carries tension
   std::vector<std::uint8_t> chunk_fails;  ///< [chunks] 1: `failure` is set for a face in it
 
   /// Marks face k as failing in the current step.

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "blocks/masses.hpp"
-#include "contacts/evaluate_faces.hpp"
+#include "contacts/evaluate_face.hpp"
 
 namespace edda {
 namespace {

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "blocks/pose.hpp"
-#include "contacts/evaluate_faces.hpp"
+#include "contacts/evaluate_face.hpp"
 #include "contacts/face_set.hpp"
 
 namespace edda {

@@ -101,16 +101,6 @@ void list_by_edge(FaceSet& c, std::size_t edges) {
   for (std::size_t k = 0; k < c.size(); ++k) c.on_edge[next[c.edge[k]]++] = static_cast<Id>(8 * k);
 }
 
-/// Whether any dashpot has done work in the last step or has yet to do it, by the faces at its end.
-bool dashpots_work(const FaceMemory& m) {
-  for (const auto column : dashpot_columns) {
-    for (std::size_t k = 0; k < (m.*column).size(); ++k) {
-      if ((m.*column)[k] != 0.0) return true;
-    }
-  }
-  return false;
-}
-
 /// Moves what does not belong to any one face to the new list.
 void move_totals(FaceSet& next, FaceSet& old) {
   next.removed_friction = old.removed_friction;
@@ -129,13 +119,6 @@ void copy_face(FaceSet& next, std::size_t k, const FaceSet& faces, Id old) {
   next.copy_row(k, faces, old);
   next.law[k] = faces.law[old];
 }
-/// And its state.
-void copy_state(FaceSet& next, std::size_t k, const FaceSet& faces, Id old) {
-  next.now.copy_row(k, faces.now, old);
-  next.before.copy_row(k, faces.before, old);
-  std::copy_n(&faces.force[8 * old], 8, &next.force[8 * k]);
-}
-
 /// Row k becomes a face that was not in the old list.
 void begin_face(FaceSet& next, std::size_t k, const BlockSet& b, const LawTable& laws) {
   const Id e = next.edge[k], f = next.facing[k];
@@ -161,27 +144,15 @@ void complete_list(FaceSet& c, const BlockSet& b, const LawTable& laws) {
   const std::size_t n = c.size();
   c.edge_end.resize(n);
   c.facing_end.resize(n);
-  c.corners.assign(c.chunks() * 4 * FaceSet::chunk, 0);
   for (std::size_t k = 0; k < n; ++k) {
     c.edge_end[k] = b.next[c.edge[k]];
     c.facing_end[k] = b.next[c.facing[k]];
-    Id* const corner = c.corners.data() + k / FaceSet::chunk * 4 * FaceSet::chunk;
-    for (std::size_t q = 0; const Id v : {c.edge[k], c.edge_end[k], c.facing[k], c.facing_end[k]}) {
-      corner[q++ * FaceSet::chunk + k % FaceSet::chunk] = v;
-    }
   }
-  // Padding rows of the last chunk have zero length; `passing` must not be zero, since it is
-  // divided by.
-  for (std::size_t k = n; k < c.chunks() * FaceSet::chunk; ++k) c.passing[k] = 1.0;
   list_by_edge(c, b.vertex_count());
-  c.switching.assign(c.chunks(), 0);
-  c.deepest.assign(c.chunks(), 0.0);
   c.chunk_fails.assign(c.chunks(), 0);
   for (std::size_t k = 0; k < n; ++k) {
     if (c.failure[k] != 0.0) c.chunk_fails[k / FaceSet::chunk] = 1;
   }
-  for (FaceMemory* m : {&c.now, &c.before}) m->inactive.assign(c.chunks(), 0);
-  mark_bonded_chunks(c);
 }
 
 }  // namespace
@@ -204,13 +175,12 @@ void note_list(FaceSet& c, const Pose& pose, const Reach& reach) {
   ++c.rebuilds;
 }
 
-std::vector<Id> renew_faces(FaceSet& faces, const BlockSet& b, const State& state, const Pose& pose,
-                            const LawTable& laws, const Reach& reach, NearEdges& near,
-                            const std::vector<std::uint8_t>& carry, FaceStates states) {
+std::vector<Id> find_faces(FaceSet& faces, const BlockSet& b, const State& state, const Pose& pose,
+                           const LawTable& laws, const Reach& reach, NearEdges& near,
+                           const std::vector<std::uint8_t>& carry) {
   const std::vector<Listed> list =
       wanted_faces(edges_within(near, b, state, pose, reach), faces, carry, b, state);
   const std::size_t n = list.size();
-  const bool copies = states == FaceStates::in_rows;
   FaceSet next;
   next.set_rows(n);
   next.law.resize(n);
@@ -220,50 +190,30 @@ std::vector<Id> renew_faces(FaceSet& faces, const BlockSet& b, const State& stat
     next.edge[k] = list[k].edge;
     next.facing[k] = list[k].facing;
   }
-  if (copies) {
-    next.clear_states();
-  } else {
-    faces.drop_states();
-  }
   move_totals(next, faces);
   std::vector<std::uint8_t> stays(faces.size(), 0);
-  parallel_chunks(n, FaceSet::run, 50, [&](std::size_t, std::size_t begin, std::size_t end) {
-    for (std::size_t k = begin; k < end; ++k) {
-      const Id old = list[k].old;
-      if (old == no_id) {
-        begin_face(next, k, b, laws);
-      } else {
-        stays[old] = 1;
-        copy_face(next, k, faces, old);
-        if (copies) copy_state(next, k, faces, old);
-      }
-      fill_constants_of_law(next, b, laws, k);
+  const auto fill = [&](std::size_t k) {
+    const Id old = list[k].old;
+    if (old == no_id) {
+      begin_face(next, k, b, laws);
+    } else {
+      stays[old] = 1;
+      copy_face(next, k, faces, old);
     }
-  });
+    fill_constants_of_law(next, b, laws, k);
+  };
+  parallel_for(n, fill, 50);
   for (std::size_t k = 0; k < faces.size(); ++k) {
     if (stays[k] == 0) retire(next, faces, k);
   }
   complete_list(next, b, laws);
-  next.dashpots = copies ? dashpots_work(next.now) : faces.dashpots;
+  next.dashpots = faces.dashpots;
   next.rebuilds = faces.rebuilds;
   note_list(next, pose, reach);
   faces = std::move(next);
   std::vector<Id> old(n);
   for (std::size_t k = 0; k < n; ++k) old[k] = list[k].old;
   return old;
-}
-
-void find_faces(FaceSet& faces, const BlockSet& b, const State& state, const Pose& pose,
-                const LawTable& laws, const Reach& reach, NearEdges& near) {
-  std::vector<std::uint8_t> carry(faces.size());
-  for (std::size_t k = 0; k < faces.size(); ++k) carry[k] = faces.now.energy[k] > 0.0 ? 1 : 0;
-  renew_faces(faces, b, state, pose, laws, reach, near, carry, FaceStates::in_rows);
-}
-
-void find_faces(FaceSet& faces, const BlockSet& b, const State& state, const Pose& pose,
-                const LawTable& laws, const Reach& reach) {
-  NearEdges near;
-  find_faces(faces, b, state, pose, laws, reach, near);
 }
 
 }  // namespace edda

@@ -11,23 +11,12 @@
 namespace edda {
 
 /// Lists all pairs of edges of two blocks that may act before any vertex has moved by half of
-/// reach.apart, sorted by `edge`, then by `facing`, and carries over the memory of those that were
-/// in the old list. near: what this search leaves to the next one.
-void find_faces(FaceSet& faces, const BlockSet& blocks, const State& state, const Pose& pose,
-                const LawTable& laws, const Reach& reach, NearEdges& near);
-void find_faces(FaceSet& faces, const BlockSet& blocks, const State& state, const Pose& pose,
-                const LawTable& laws, const Reach& reach);
-
-/// Where the state of the faces (FaceSet::now, before, force) is kept: in the rows of the FaceSet,
-/// or elsewhere, in which case the rows of the new list have room for it and no meaning.
-enum class FaceStates { in_rows, elsewhere };
-
-/// The same; carry: [nf] 1: the face stores energy. Returns for each face of the new list its row
-/// in the old one, or no_id.
-std::vector<Id> renew_faces(FaceSet& faces, const BlockSet& blocks, const State& state,
-                            const Pose& pose, const LawTable& laws, const Reach& reach,
-                            NearEdges& near, const std::vector<std::uint8_t>& carry,
-                            FaceStates states);
+/// reach.apart, sorted by `edge`, then by `facing`, and carries over what has been decided of those
+/// that were in the old list. near: what this search leaves to the next one; carry: [nf] 1: the
+/// face stores energy. Returns for each face of the new list its row in the old one, or no_id.
+std::vector<Id> find_faces(FaceSet& faces, const BlockSet& blocks, const State& state,
+                           const Pose& pose, const LawTable& laws, const Reach& reach,
+                           NearEdges& near, const std::vector<std::uint8_t>& carry);
 
 /// Notes where the blocks are as the list is made, and its reach.
 void note_list(FaceSet& faces, const Pose& pose, const Reach& reach);

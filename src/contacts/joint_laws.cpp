@@ -6,9 +6,8 @@
 #include <limits>
 #include <numbers>
 
-#include "base/parallel.hpp"
-#include "contacts/evaluate_faces.hpp"
-#include "contacts/face_columns.hpp"
+#include "contacts/evaluate_face.hpp"
+#include "contacts/joint_strength.hpp"
 
 namespace edda {
 namespace {
@@ -44,8 +43,7 @@ InForce rough(const Law& law, double slip, double length, double sigma, double d
 }
 
 /// m: the state of face k at n, as everywhere below.
-InForce in_force(const FaceSet& c, const LawTable& laws, const FaceFields<double>& m,
-                 std::size_t k) {
+InForce in_force(const FaceSet& c, const LawTable& laws, const FaceFields& m, std::size_t k) {
   const Law& law = laws.rows[c.law[k]];
   if (law.type == LawType::slip_weakening) return weakened(law, c.slip_so_far[k]);
   if (law.type == LawType::barton_bandis && m.length > 0.0) {
@@ -76,8 +74,7 @@ double dilating_part(const FaceSet& c, const Law& law, std::size_t k, double sli
 }
 
 /// Adds a slip of the joint to its accumulated slip and to its outstanding dilation.
-void take_slip(FaceSet& c, const LawTable& laws, const FaceFields<double>& m, std::size_t k,
-               double slip) {
+void take_slip(FaceSet& c, const LawTable& laws, const FaceFields& m, std::size_t k, double slip) {
   if (slip == 0.0) return;
   const double part = dilating_part(c, laws.rows[c.law[k]], k, slip);
   c.dilation_left[k] += in_force(c, laws, m, k).dilation * part;
@@ -88,10 +85,10 @@ void take_slip(FaceSet& c, const LawTable& laws, const FaceFields<double>& m, st
 struct Sliding {
   double slip = 0.0, friction = 0.0;
 };
-/// As evaluate_faces() will find it, with the normal forces `normal` at n + 1. moved: the ends
+/// As a step will find it, with the normal forces `normal` at n + 1. moved: the ends
 /// along the joint.
-Sliding sliding_under(const FaceSet& c, const FaceFields<double>& m, FaceEnds moved,
-                      FaceEnds normal, std::size_t k) {
+Sliding sliding_under(const FaceSet& c, const FaceFields& m, FaceEnds moved, FaceEnds normal,
+                      std::size_t k) {
   Sliding both;
   const double spring = m.spring, cohesion = 0.5 * c.cohesion[k] * m.cohesive;
   if (!(spring > 0.0) || c.bonded[k] > 0.0) return both;
@@ -118,7 +115,7 @@ struct Lift {
 /// r (N_n + N_{n+1})/2.
 void lift(FaceSet& c, const BlockSet& b, const Pose& pose, const LawTable& laws, FaceAtN& at_n,
           std::size_t k) {
-  const FaceFields<double>& m = at_n.state;
+  const FaceFields& m = at_n.state;
   if (!(c.friction_work[k] > 0.0)) return;
   if (c.cohesion[k] > 0.0) complete(c, b, pose, at_n, k);
   const Face closed = face_at(c, b, pose.x, pose.y, k);
@@ -164,7 +161,7 @@ void lift(FaceSet& c, const BlockSet& b, const Pose& pose, const LawTable& laws,
 /// asperities still face each other; the dilation does not exceed the gap, so it does not close the
 /// joint.
 void take_slip_while_open(FaceSet& c, const BlockSet& b, const Pose& pose, const LawTable& laws,
-                          const FaceFields<double>& m, std::size_t k) {
+                          const FaceFields& m, std::size_t k) {
   const Face face = face_at(c, b, pose.x, pose.y, k);
   const FaceEnds slip =
       slip_of(c, face, face_points(c, pose.x, pose.y, k), face_points(c, pose.x1, pose.y1, k), k);
@@ -174,7 +171,7 @@ void take_slip_while_open(FaceSet& c, const BlockSet& b, const Pose& pose, const
   open_by(c, k, rise);
 }
 
-void put_in_force(FaceSet& c, const LawTable& laws, const FaceFields<double>& m, std::size_t k) {
+void put_in_force(FaceSet& c, const LawTable& laws, const FaceFields& m, std::size_t k) {
   if (laws.rows[c.law[k]].type == LawType::coulomb) return;
   const InForce now = in_force(c, laws, m, k);
   c.friction[k] = now.friction;
@@ -209,17 +206,17 @@ double barton_angle(const Law& law, double roughness, double sigma) {
   return std::max(law.residual_angle, std::min(angle, steepest));
 }
 
-void put_strengths_in_force(FaceSet& c, const LawTable& laws) {
+void put_strengths_in_force(FaceSet& c, const FaceStates& states, const LawTable& laws) {
   for (std::size_t k = 0; laws.any_changes && k < c.size(); ++k) {
-    if (laws.rows[c.law[k]].changes && c.before.gate[k] > 0.0)
-      put_in_force(c, laws, row_of(c.before, k), k);
+    const FaceFields& m = states.before[k];
+    if (laws.rows[c.law[k]].changes && m.gate > 0.0) put_in_force(c, laws, m, k);
   }
 }
 
 void update_joint_law(FaceSet& c, const BlockSet& b, const Pose& pose, const LawTable& laws,
                       FaceAtN& at_n, std::size_t k) {
   const Law& law = laws.rows[c.law[k]];
-  const FaceFields<double>& m = at_n.state;
+  const FaceFields& m = at_n.state;
   if (m.energy > 0.0 || c.carries_tension[k] > 0.0) {
     if (law.type == LawType::barton_bandis) complete(c, b, pose, at_n, k);
     const double cut = std::abs(m.trial_a - m.slip_a) + std::abs(m.trial_b - m.slip_b);
@@ -238,20 +235,6 @@ void update_joint_law(FaceSet& c, const BlockSet& b, const Pose& pose, const Law
   } else if (may_part && closure < -drawn_gap * size) {
     c.slip_so_far[k] = first_slip(law);
   }
-}
-
-void update_joint_laws(FaceSet& c, const BlockSet& b, const Pose& pose, const LawTable& laws) {
-  c.risen.assign(c.size(), 0.0);
-  c.risen_by.assign(c.size(), 0.0);
-  constexpr std::size_t cost = 100;
-  parallel_for(
-      c.size(),
-      [&](std::size_t k) {
-        if (!laws.rows[c.law[k]].changes) return;
-        FaceAtN at_n{row_of(c.before, k), true};
-        update_joint_law(c, b, pose, laws, at_n, k);
-      },
-      cost);
 }
 
 }  // namespace edda

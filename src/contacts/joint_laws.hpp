@@ -19,6 +19,7 @@
 
 #include "blocks/pose.hpp"
 #include "contacts/face_set.hpp"
+#include "contacts/face_states.hpp"
 #include "contacts/laws.hpp"
 
 namespace edda {
@@ -34,21 +35,18 @@ double roughness_left(double slip, double peak);
 /// that is larger, the residual angle.
 double barton_angle(const Law& law, double roughness, double sigma);
 
-/// Adds the slip up to n, puts the resulting strength in force, and opens joints that dilate by
-/// what the slip between n and n + 1 asks for. Requires pose.x1 at n, of which FaceSet::before is
-/// the memory, and pose.x at n + 1.
-void update_joint_laws(FaceSet& faces, const BlockSet& blocks, const Pose& pose,
-                       const LawTable& laws);
 /// A face at n: where `complete` is false only what it remembers, and what follows from its corners
 /// (closures, normal forces, lengths) is found where a law asks for it.
 struct FaceAtN {
-  FaceFields<double> state;
+  FaceFields state;
   bool complete;
 };
-/// The same of one face whose law changes.
+/// Adds the slip of face k up to n, puts the resulting strength in force, and opens the joint, if
+/// it dilates, by what the slip between n and n + 1 asks for. Requires pose.x1 at n and pose.x at
+/// n + 1.
 void update_joint_law(FaceSet& faces, const BlockSet& blocks, const Pose& pose,
                       const LawTable& laws, FaceAtN& at_n, std::size_t k);
 /// Updates the strength alone, from the accumulated slip and the present normal force.
-void put_strengths_in_force(FaceSet& faces, const LawTable& laws);
+void put_strengths_in_force(FaceSet& faces, const FaceStates& states, const LawTable& laws);
 
 }  // namespace edda

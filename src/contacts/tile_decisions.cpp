@@ -4,7 +4,7 @@
 #include <array>
 
 #include "base/parallel.hpp"
-#include "contacts/evaluate_faces.hpp"
+#include "contacts/evaluate_face.hpp"
 #include "contacts/face_bonds.hpp"
 #include "contacts/joint_laws.hpp"
 #include "contacts/tile_loading.hpp"
@@ -68,6 +68,15 @@ void update_joint_laws(FaceSet& c, FaceTiles& t, const BlockSet& b, const Pose& 
   std::vector<char> no_scratch;
   parallel_tasks(t.tiles.size(), 20 * c.size(), no_scratch,
                  [&](std::size_t tile, char&) { load_changed(t, c, pose, tile, changed); });
+}
+
+void begin_step(FaceSet& c, FaceTiles& t, const BlockSet& b, const Pose& pose,
+                const LawTable& laws) {
+  c.risen.clear();
+  c.risen_by.clear();
+  if (c.gluing) glue_pressed(c, t, b, pose.x1, pose.y1);
+  next_step(c, t);
+  if (laws.any_changes) update_joint_laws(c, t, b, pose, laws);
 }
 
 void glue_pressed(FaceSet& c, FaceTiles& t, const BlockSet& b, const std::vector<double>& x,

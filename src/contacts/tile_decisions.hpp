@@ -7,9 +7,15 @@
 
 namespace edda {
 
-/// As update_joint_laws() of the rows; FaceTiles::now must be that of n + 1 already.
+/// update_joint_law() of all faces whose law changes, from n to n + 1, which FaceTiles::now must be
+/// already.
 void update_joint_laws(FaceSet& faces, FaceTiles& tiles, const BlockSet& blocks, const Pose& pose,
                        const LawTable& laws);
+
+/// Between step n, whose state becomes final, and the evaluation at n + 1 (pose.x): adds up its
+/// work, and decides what a step decides of joints before it. pose.x1: the vertices at n.
+void begin_step(FaceSet& faces, FaceTiles& tiles, const BlockSet& blocks, const Pose& pose,
+                const LawTable& laws);
 
 /// Glues the faces that have been pressed for a whole step and are closed from end to end at its
 /// end (glue_if_whole()), which FaceTiles::now is; x, y: the vertices then.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstring>
 #include <iterator>
+#include <limits>
 
 #include "base/parallel.hpp"
 #include "contacts/joint_strength.hpp"
@@ -68,91 +69,99 @@ Id set_of(ConstantSets& sets, Id was, const double* numbers, std::size_t columns
   return static_cast<Id>(count);
 }
 
-/// The memory of face k at the step of `m`, at these positions.
-void load_memory(FaceTiles& t, const FaceSet& c, const FaceMemory& m, const std::vector<double>& x,
+/// What face k remembers of a step, where its state is m, at these positions.
+void load_memory(FaceTiles& t, const FaceSet& c, const FaceFields& m, const std::vector<double>& x,
                  const std::vector<double>& y, int which, std::size_t place, std::size_t k) {
   if (t.holds(place / lanes)) {
     const EdgeCoordinates at = coordinates_at(c, x, y, k);
     put(t, which, place,
-        FaceMemoryColumns<double>{m.slip_a[k], m.slip_b[k], m.overlap[k], m.spring[k], at.s2, at.y2,
-                                  at.r1, at.r2, at.z2});
+        FaceMemoryColumns<double>{m.slip_a, m.slip_b, m.overlap, m.spring, at.s2, at.y2, at.r1,
+                                  at.r2, at.z2});
     if (t.dashpots) {
       put(t, which, place,
-          DashpotMemoryColumns<double>{m.damping_a[k], m.damping_b[k], m.shear_damping_a[k],
-                                       m.shear_damping_b[k], m.strike_a[k], m.strike_b[k]});
+          DashpotMemoryColumns<double>{m.damping_a, m.damping_b, m.shear_damping_a,
+                                       m.shear_damping_b, m.strike_a, m.strike_b});
     }
     if (t.slip_laws) {
-      put(t, which, place,
-          PressureColumns<double>{m.normal_a[k], m.normal_b[k], m.length[k], m.cohesive[k]});
+      put(t, which, place, PressureColumns<double>{m.normal_a, m.normal_b, m.length, m.cohesive});
     }
   }
-  const bool stored = m.energy[k] > 0.0, touches = stored || m.spring[k] > 0.0;
+  const bool stored = m.energy > 0.0, touches = stored || m.spring > 0.0;
   LaneBits& bits = t.bits[which][place / lanes];
   const auto mark = [&](unsigned of, bool is) { set_bit(bits, of, place % lanes, is); };
   mark(lane_bits::stored, stored);
-  mark(lane_bits::on, m.gate[k] > 0.0);
-  mark(lane_bits::closed_a, touches && m.closure_a[k] > c.noise);
-  mark(lane_bits::closed_b, touches && m.closure_b[k] > c.noise);
-  mark(lane_bits::switched, m.switched[k] > 0.0);
+  mark(lane_bits::on, m.gate > 0.0);
+  mark(lane_bits::closed_a, touches && m.closure_a > c.noise);
+  mark(lane_bits::closed_b, touches && m.closure_b > c.noise);
+  mark(lane_bits::switched, m.switched > 0.0);
 }
 
-bool slides(const FaceMemory& m, std::size_t k) {
-  return is_cut(FaceEnds{m.trial_a[k], m.trial_b[k]}, FaceEnds{m.slip_a[k], m.slip_b[k]});
+bool slides(const FaceFields& m) {
+  return is_cut(FaceEnds{m.trial_a, m.trial_b}, FaceEnds{m.slip_a, m.slip_b});
 }
-/// Whether face k stored energy at n - 1 and stores none now.
-bool opens(const FaceSet& c, std::size_t k) {
-  return c.before.energy[k] > 0.0 && c.now.energy[k] == 0.0;
-}
-/// Whether the work of face k in the last step must be kept: no_work() does not hold.
-bool is_busy(const FaceSet& c, std::size_t k) {
-  const FaceMemory& m = c.now;
-  const bool sticks =
-      m.shear_a[k] == -m.spring[k] * m.slip_a[k] && m.shear_b[k] == -m.spring[k] * m.slip_b[k];
-  return opens(c, k) || slides(m, k) || !sticks || m.friction_work[k] != 0.0 ||
-         m.transfer[k] != 0.0 || m.damping_work[k] != 0.0 || m.damping_due[k] != 0.0;
+/// Whether the work of a step must be kept: no_work() does not hold.
+bool is_busy(const FaceFields& m) {
+  const bool sticks = m.shear_a == -m.spring * m.slip_a && m.shear_b == -m.spring * m.slip_b;
+  return slides(m) || !sticks || m.friction_work != 0.0 || m.transfer != 0.0 ||
+         m.damping_work != 0.0 || m.damping_due != 0.0;
 }
 
-/// The work of face k in the last step. Of a chunk in which no face has done any nothing is kept.
-void load_work(FaceTiles& t, const FaceSet& c, int which, std::size_t place, std::size_t k) {
-  const FaceMemory& m = c.now;
+/// A face at steps n and n - 1.
+struct FaceState {
+  const FaceFields &now, &before;
+
+  /// Whether it stored energy at n - 1 and stores none now.
+  bool opens() const { return before.energy > 0.0 && now.energy == 0.0; }
+  bool works() const { return opens() || is_busy(now); }
+};
+FaceState state_of(const FaceStates& states, std::size_t k) {
+  return {states.now[k], states.before[k]};
+}
+
+/// The work of the step that ended in the state m, in which the face opened or did not. Of a chunk
+/// in which no face has done any nothing is kept.
+void load_work(FaceTiles& t, const FaceFields& m, bool opens, int which, std::size_t place) {
   const std::size_t q = place / lanes;
-  if (is_busy(c, k)) begin_work(t, which, q);
+  if (opens || is_busy(m)) begin_work(t, which, q);
   if (t.fresh[which][q] != 0) {
     put(t, which, place,
-        FaceWorkColumns<double>{m.friction_work[k], m.transfer[k], m.trial_a[k], m.trial_b[k],
-                                m.shear_a[k], m.shear_b[k], m.damping_work[k], m.damping_due[k]});
+        FaceWorkColumns<double>{m.friction_work, m.transfer, m.trial_a, m.trial_b, m.shear_a,
+                                m.shear_b, m.damping_work, m.damping_due});
   }
-  set_bit(t.found[which][q], lane_bits::opens, place % lanes, opens(c, k));
-  set_bit(t.found[which][q], lane_bits::slides, place % lanes, slides(m, k));
+  set_bit(t.found[which][q], lane_bits::opens, place % lanes, opens);
+  set_bit(t.found[which][q], lane_bits::slides, place % lanes, slides(m));
 }
 
-bool remembers(const FaceMemory& m, std::size_t k) {
-  return m.energy[k] > 0.0 || m.spring[k] > 0.0 || m.slip_a[k] != 0.0 || m.slip_b[k] != 0.0;
+bool remembers(const FaceFields& m) {
+  return m.energy > 0.0 || m.spring > 0.0 || m.slip_a != 0.0 || m.slip_b != 0.0;
 }
 
-/// What each face does as far as rows tell, [nf].
-std::vector<std::uint8_t> kinds_by_rows(const FaceSet& c) {
-  std::vector<std::uint8_t> kind(c.size(), face_kind::looked_at);
-  for (std::size_t k = 0; k < c.size(); ++k) {
-    if (is_busy(c, k)) {
+/// What each face does as far as its states tell, [nf].
+std::vector<std::uint8_t> kinds_by_states(const FaceStates& states) {
+  std::vector<std::uint8_t> kind(states.now.size(), face_kind::looked_at);
+  for (std::size_t k = 0; k < kind.size(); ++k) {
+    const FaceState f = state_of(states, k);
+    if (f.works() || is_busy(f.before)) {
       kind[k] = face_kind::long_work;
-    } else if (remembers(c.now, k) || remembers(c.before, k)) {
+    } else if (remembers(f.now) || remembers(f.before)) {
       kind[k] = face_kind::long_rest;
     }
   }
   return kind;
 }
 
-/// Fills memory and work of a copy of face k from its row.
-void load_copy(FaceTiles& t, const FaceSet& c, const Pose& pose, std::size_t place, std::size_t k) {
+/// Fills memory and work of a copy of face k.
+void load_copy(FaceTiles& t, const FaceSet& c, const FaceState& f, const Pose& pose,
+               std::size_t place, std::size_t k) {
   const int now = t.now, old = 1 - t.now;
-  const bool carries = remembers(c.now, k), carried = remembers(c.before, k);
+  const bool carried = remembers(f.before);
+  const bool worked = remembers(f.now) || carried || f.works();
   const std::size_t q = place / lanes;
-  load_memory(t, c, c.now, pose.x, pose.y, now, place, k);
-  load_memory(t, c, c.before, pose.x1, pose.y1, old, place, k);
-  load_work(t, c, now, place, k);
+  load_memory(t, c, f.now, pose.x, pose.y, now, place, k);
+  load_memory(t, c, f.before, pose.x1, pose.y1, old, place, k);
+  load_work(t, f.now, f.opens(), now, place);
+  load_work(t, f.before, false, old, place);
   load_sums(t, c, place, k);
-  const bool worked = carries || carried || is_busy(c, k);
   set_bit(t.found[now][q], lane_bits::works, place % lanes, worked);
   if (worked) t.idle[now][q] = 0;
   if (carried) t.idle[old][q] = 0;
@@ -167,8 +176,7 @@ void load_sums(FaceTiles& t, const FaceSet& c, std::size_t place, std::size_t k)
   set_bit(t.ever[q], lane_bits::slides, place % lanes, c.slipped[k] > 0.0);
 }
 
-void load_correction(FaceTiles& t, const FaceSet& c, const FaceFields<double>& before,
-                     std::size_t k) {
+void load_correction(FaceTiles& t, const FaceSet& c, const FaceFields& before, std::size_t k) {
   using Memory = FaceMemoryColumns<double>;
   for (const Id place : t.place[k]) {
     if (place == no_id) continue;
@@ -243,9 +251,10 @@ void load_constants(FaceTiles& t, const FaceSet& c, const BlockSet& b, std::size
   }
 }
 
-void load_faces(FaceTiles& t, const FaceSet& c, const BlockSet& b, const Pose& pose) {
-  lay_out(t, c, b, kinds_by_rows(c));
-  t.deepest.assign(t.chunks(), 0.0);
+void load_faces(FaceTiles& t, const FaceSet& c, const FaceStates& states, const BlockSet& b,
+                const Pose& pose) {
+  lay_out(t, c, b, kinds_by_states(states));
+  t.deepest.assign(t.chunks(), std::numeric_limits<double>::infinity());  // an upper bound
   t.now = 0;
   std::vector<char> no_scratch;
   parallel_tasks(t.tiles.size(), 60 * t.face.size(), no_scratch, [&](std::size_t tile, char&) {
@@ -254,7 +263,8 @@ void load_faces(FaceTiles& t, const FaceSet& c, const BlockSet& b, const Pose& p
     for (std::size_t q = of.first_chunk; q < of.last_chunk; ++q) {
       t.idle[0][q] = t.idle[1][q] = 1;
       for (std::size_t place = q * lanes; place < (q + 1) * lanes; ++place) {
-        if (t.face[place] != no_id) load_copy(t, c, pose, place, t.face[place]);
+        const Id k = t.face[place];
+        if (k != no_id) load_copy(t, c, state_of(states, k), pose, place, k);
       }
     }
     order_records(t, c, b, tile);

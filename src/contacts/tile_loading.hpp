@@ -1,13 +1,16 @@
-// From rows of the FaceSet to tiles (contacts/face_tiles.hpp); tile_rows.hpp has the way back.
+// To the tiles of the faces (contacts/face_tiles.hpp): their states, and what is decided of them.
+// tile_rows.hpp has the way back.
 #pragma once
 
+#include "contacts/face_states.hpp"
 #include "contacts/face_tiles.hpp"
 
 namespace edda {
 
-/// Fills everything from the faces as they are at the end of a step (FaceSet::now, before), with
-/// the positions of that step. divide_blocks() must have been called for these blocks.
-void load_faces(FaceTiles& tiles, const FaceSet& faces, const BlockSet& blocks, const Pose& pose);
+/// Fills everything from the states of the faces at the end of a step, with the positions of that
+/// step. divide_blocks() must have been called for these blocks.
+void load_faces(FaceTiles& tiles, const FaceSet& faces, const FaceStates& states,
+                const BlockSet& blocks, const Pose& pose);
 
 /// Takes over what has been decided of face k: stiffness, strength, locked closures, and what that
 /// has added to its accumulated work.
@@ -29,7 +32,7 @@ void load_constants(FaceTiles& tiles, const FaceSet& faces, const BlockSet& bloc
 
 /// Takes over what the correction of switching has changed of face k (recompute_shear()): its slip
 /// at n - 1 (`before`) and its accumulated work.
-void load_correction(FaceTiles& tiles, const FaceSet& faces, const FaceFields<double>& before,
+void load_correction(FaceTiles& tiles, const FaceSet& faces, const FaceFields& before,
                      std::size_t k);
 
 /// The accumulated work of face k, of which a copy is at a place.

@@ -4,13 +4,13 @@
 #include <iterator>
 
 #include "base/parallel.hpp"
-#include "contacts/evaluate_faces.hpp"
+#include "contacts/evaluate_face.hpp"
 #include "contacts/face_step.hpp"
 #include "contacts/tile_columns.hpp"
 
 namespace edda {
 
-FaceFields<double> remembered(const FaceTiles& t, int which, std::size_t k) {
+FaceFields remembered(const FaceTiles& t, int which, std::size_t k) {
   const Id place = t.place[k][0];
   const auto memory = get<FaceMemoryColumns<double>>(t, which, place);
   const bool kept = t.fresh[which][place / lanes] != 0;
@@ -19,7 +19,7 @@ FaceFields<double> remembered(const FaceTiles& t, int which, std::size_t k) {
   const auto was = [&](unsigned of) {
     return lane_bits::test(bits, of, place % lanes) ? 1.0 : 0.0;
   };
-  FaceFields<double> m{};
+  FaceFields m{};
   m.energy = was(lane_bits::stored);
   m.gate = was(lane_bits::on);
   m.closure_a = was(lane_bits::closed_a);
@@ -55,7 +55,7 @@ FaceFields<double> remembered(const FaceTiles& t, int which, std::size_t k) {
   return m;
 }
 
-FaceFields<double> remembered(const FaceTiles& t, std::size_t k) {
+FaceFields remembered(const FaceTiles& t, std::size_t k) {
   return remembered(t, 1 - t.now, k);
 }
 
@@ -72,7 +72,7 @@ FaceRow face_row(const FaceSet& c, const FaceTiles& t, const BlockSet& b, const 
   const Face face = face_between(stands, pair);
   // A face that is new in the list has no state until its first step.
   if (face.gate > 0.0 && !t.remembers(lane_bits::on, k)) return row;
-  FaceFields<double>& m = row.state;
+  FaceFields& m = row.state;
   m = remembered(t, t.now, k);
   take_element(m, face);
   const FaceEnds shear{m.shear_a, m.shear_b}, bounds = ends_at_bounds(face, pair);
@@ -94,11 +94,10 @@ void recall_work(FaceSet& c, const FaceTiles& t, std::size_t k) {
 }
 
 void recall_work(FaceSet& c, const FaceTiles& t) {
-  parallel_chunks(c.size(), FaceSet::run, 5, [&](std::size_t, std::size_t begin, std::size_t end) {
-    for (std::size_t k = begin; k < end; ++k) {
-      if (t.place[k][0] != no_id) recall_work(c, t, k);
-    }
-  });
+  const auto recall = [&](std::size_t k) {
+    if (t.place[k][0] != no_id) recall_work(c, t, k);
+  };
+  parallel_for(c.size(), recall, 5);
 }
 
 bool stays_open(const FaceTiles& t, const FaceSet& c, const BlockSet& b, const Pose& pose,
@@ -113,20 +112,23 @@ bool stays_open(const FaceTiles& t, const FaceSet& c, const BlockSet& b, const P
   return !s.may_close && (s.gate > 0.0) == in.before.on;
 }
 
-void unload_faces(FaceSet& c, const FaceTiles& t, const BlockSet& b, const Pose& pose) {
-  c.clear_states();
-  const auto unload = [&](std::size_t q, std::size_t begin, std::size_t end) {
-    for (std::size_t k = begin; k < end; ++k) {
-      if (t.place[k][0] == no_id) continue;
-      recall_work(c, t, k);
-      const FaceRow row = face_row(c, t, b, pose, k);
-      set_row(c.now, k, row.state);
-      set_row(c.before, k, remembered(t, k));
-      put(c.force.data() + 8 * k, row.force);
-    }
-    c.now.inactive[q] = c.before.inactive[q] = 0;
+FaceStates states_of(const FaceSet& c, const FaceTiles& t, const BlockSet& b, const Pose& pose) {
+  FaceStates states(c.size());
+  const auto unload = [&](std::size_t k) {
+    if (t.place[k][0] == no_id) return;
+    states.now[k] = face_row(c, t, b, pose, k).state;
+    states.before[k] = remembered(t, k);
   };
-  parallel_chunks(c.size(), FaceSet::chunk, 150, unload);
+  parallel_for(c.size(), unload, 150);
+  return states;
+}
+
+std::vector<double> corner_forces(const FaceSet& c, const FaceTiles& t, const BlockSet& b,
+                                  const Pose& pose) {
+  std::vector<double> forces(8 * c.size(), 0.0);
+  const auto unload = [&](std::size_t k) { put(&forces[8 * k], face_row(c, t, b, pose, k).force); };
+  parallel_for(c.size(), unload, 150);
+  return forces;
 }
 
 namespace {

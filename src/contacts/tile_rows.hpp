@@ -1,17 +1,18 @@
-// Between the tiles of a step (contacts/face_tiles.hpp) and the rows of the FaceSet, of
-// which the step keeps up to date only what is decided.
+// Faces by value, from their tiles (contacts/face_tiles.hpp), and the accumulated work of the
+// FaceSet, which a step keeps there.
 #pragma once
 
 #include "contacts/face_reading.hpp"
+#include "contacts/face_states.hpp"
 #include "contacts/face_tiles.hpp"
 
 namespace edda {
 
 /// What the tiles remember of face k at n - 1, which is all that a step reads of it: 1 stands for
 /// an energy, a gate or a closure above 0.
-FaceFields<double> remembered(const FaceTiles& tiles, std::size_t k);
+FaceFields remembered(const FaceTiles& tiles, std::size_t k);
 /// The same of step n (which = FaceTiles::now) or n - 1.
-FaceFields<double> remembered(const FaceTiles& tiles, int which, std::size_t k);
+FaceFields remembered(const FaceTiles& tiles, int which, std::size_t k);
 
 /// Face k at n, which FaceTiles::now is.
 FaceRow face_row(const FaceSet& faces, const FaceTiles& tiles, const BlockSet& blocks,
@@ -27,11 +28,17 @@ void recall_work(FaceSet& faces, const FaceTiles& tiles);
 bool stays_open(const FaceTiles& tiles, const FaceSet& faces, const BlockSet& blocks,
                 const Pose& pose, std::size_t k);
 
-/// Fills `now`, what a step reads of `before`, and the forces of all faces, which have no states.
-void unload_faces(FaceSet& faces, const FaceTiles& tiles, const BlockSet& blocks, const Pose& pose);
+/// The states of all faces at n, and at n - 1 what a step reads of them.
+FaceStates states_of(const FaceSet& faces, const FaceTiles& tiles, const BlockSet& blocks,
+                     const Pose& pose);
 
-/// As next_step(): adds the work of step n to the accumulated work and makes its memory that of the
-/// step before.
+/// Forces of all faces on their corners at n, N, [nf][8]: x and y at start and end of `edge`, at
+/// start and end of `facing`.
+std::vector<double> corner_forces(const FaceSet& faces, const FaceTiles& tiles,
+                                  const BlockSet& blocks, const Pose& pose);
+
+/// Makes the state of step n final: adds its work to the accumulated work and makes its memory that
+/// of the step before. Then a step to n + 1 may be evaluated.
 void next_step(FaceSet& faces, FaceTiles& tiles);
 
 /// Visits the owned copies that have a bit of field `of` set in the last step, of the chunks of

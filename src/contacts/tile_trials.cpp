@@ -5,6 +5,7 @@
 
 #include "base/parallel.hpp"
 #include "contacts/tile_columns.hpp"
+#include "contacts/tile_decisions.hpp"
 #include "contacts/tile_loading.hpp"
 
 namespace edda {
@@ -51,6 +52,14 @@ void keep_trial(FaceTiles& t, const FaceSet& c) {
     }
   });
   copy_memory(t, 1 - t.now, t.now);
+}
+
+void end_at_rest(FaceSet& c, FaceTiles& t, const BlockSet& b, const Pose& pose) {
+  if (c.gluing) glue_pressed(c, t, b, pose.x, pose.y);
+  next_step(c, t);
+  t.now = 1 - t.now;
+  recall_work(c, t);
+  keep_trial(t, c);
 }
 
 void drop_trial(FaceTiles& t) {

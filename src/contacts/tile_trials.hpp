@@ -15,6 +15,10 @@ void limit_shear(FaceTiles& tiles, FaceEnds limit, std::size_t k);
 /// the faces is that of the FaceSet.
 void keep_trial(FaceTiles& tiles, const FaceSet& faces);
 
+/// Ends a step at rest: its work is accumulated, and the state just evaluated becomes that of step
+/// n and of the step before.
+void end_at_rest(FaceSet& faces, FaceTiles& tiles, const BlockSet& blocks, const Pose& pose);
+
 /// Gives it up.
 void drop_trial(FaceTiles& tiles);
 

@@ -13,15 +13,13 @@
 
 namespace edda {
 
-void load_tiles(TiledFaces& own, const FaceSet& c, const BlockSet& b, const State& state,
-                const Pose& pose, bool with_fixed, std::size_t of_tile) {
+void load_tiles(TiledFaces& own, const FaceSet& c, const FaceStates& states, const BlockSet& b,
+                const State& state, const Pose& pose, bool with_fixed, std::size_t of_tile) {
   own.blocks = of_tile;
   divide_blocks(own.tiles, b, state, with_fixed, of_tile);
-  load_faces(own.tiles, c, b, pose);
+  load_faces(own.tiles, c, states, b, pose);
   own.results.resize(own.tiles.tiles.size());
   own.in_two_tiles = part_in_two_tiles(own.tiles);
-  own.loaded = true;
-  own.ahead = false;
   own.pushed = 0.0;
 }
 
@@ -176,9 +174,9 @@ std::vector<Id> FacesInStep::decide(const std::vector<Id>& faces, const StateAtN
   std::vector<std::uint8_t> changes(asking.size(), 0);
   const auto decide_one = [&](std::size_t q) {
     const Id k = asking[q];
-    const FaceFields<double>* const known = ahead ? ahead(k) : nullptr;
+    const FaceFields* const known = ahead ? ahead(k) : nullptr;
     if (known == nullptr) recall_work(c_, t, k);
-    const FaceFields<double> before = known == nullptr ? remembered(t, k) : *known;
+    const FaceFields before = known == nullptr ? remembered(t, k) : *known;
     const auto had = properties(c_, k);
     if (breaks &&
         (t.has_found(lane_bits::fails, k) || c_.bonded[k] > 0.0 || c_.carries_tension[k] > 0.0)) {

@@ -6,7 +6,7 @@
 #include <functional>
 #include <vector>
 
-#include "contacts/evaluate_faces.hpp"
+#include "contacts/evaluate_face.hpp"
 #include "contacts/tile_rows.hpp"
 #include "contacts/tile_sweep.hpp"
 
@@ -14,7 +14,6 @@ namespace edda {
 
 struct TiledFaces {
   FaceTiles tiles;
-  bool use = true;  ///< false, for tests: the rows are evaluated, which gives the same bits
   /// SweepScene::least_margin as a part of the list's reach. 0: no face sleeps.
   double sleep_part = 1e-9;
   double pushed = 0.0;                        ///< m, SweepScene::pushed
@@ -23,16 +22,15 @@ struct TiledFaces {
   std::size_t blocks = 0;     ///< of a tile, as they were divided
   double in_two_tiles = 0.0;  ///< part_in_two_tiles() as the blocks were divided
   bool corrects = false;      ///< SweepScene::corrects
-  bool loaded = false;        ///< they hold the faces of the simulation
-  bool ahead = false;         ///< and the rows of the faces have no states
   std::vector<SweepScratch> scratch;  ///< by thread
   std::vector<SweepResult> results;   ///< [tiles]
   std::vector<std::uint8_t> wanted;   ///< [nb] working memory: 0 everywhere between uses
 };
 
-/// Takes the faces, which have states at n and n - 1, into tiles of `of_tile` blocks at most.
-void load_tiles(TiledFaces& tiled, const FaceSet& faces, const BlockSet& blocks, const State& state,
-                const Pose& pose, bool with_fixed, std::size_t of_tile);
+/// Takes the faces, which have these states at n and n - 1, into tiles of `of_tile` blocks at most.
+void load_tiles(TiledFaces& tiled, const FaceSet& faces, const FaceStates& states,
+                const BlockSet& blocks, const State& state, const Pose& pose, bool with_fixed,
+                std::size_t of_tile);
 
 /// Forces of the faces on the nodes and modes of the blocks, N.
 struct ForcesOfFaces {
@@ -41,7 +39,7 @@ struct ForcesOfFaces {
 };
 
 /// The state at n of a face that is ahead of what the tiles remember; null: it is not.
-using StateAtN = std::function<const FaceFields<double>*(Id)>;
+using StateAtN = std::function<const FaceFields*(Id)>;
 
 /// A step in which the faces go to the positions of the scene, once or several times.
 class FacesInStep {
@@ -58,7 +56,7 @@ class FacesInStep {
         on_(on),
         keeps_(keeps) {}
 
-  /// Evaluates all faces: memory, forces on the blocks.
+  /// Evaluates all faces: memory, forces on the blocks. May be called again for other positions.
   void sweep();
   /// Faces with a bit of `of` in the tiles of which that was found, in the order of the list.
   std::vector<Id> found(unsigned of, bool SweepResult::*that) const;

@@ -18,8 +18,8 @@ struct FaceListView {
   const double* force;
   ConstNodeValues weight;
 };
-FaceListView faces_of(const BlockSet& b, const FaceSet& c) {
-  return {c.begin_of_edge.data(), c.on_edge.data(), b.next.data(), c.force.data(),
+FaceListView faces_of(const BlockSet& b, const FaceSet& c, const std::vector<double>& forces) {
+  return {c.begin_of_edge.data(), c.on_edge.data(), b.next.data(), forces.data(),
           values_of(b.weight)};
 }
 
@@ -164,13 +164,14 @@ NodalForces no_forces(const BlockSet& b) {
   return f;
 }
 
-void sum_faces(NodalForces& on, const BlockSet& b, const FaceSet& contacts) {
+void sum_faces(NodalForces& on, const BlockSet& b, const FaceSet& contacts,
+               const std::vector<double>& forces) {
   for (Nodes* const nodes : {&on.x, &on.y}) {
     for (auto& values : *nodes) values.resize(b.size());
   }
   on.modes.assign(b.bending.modes(), 0.0);
   parallel_blocks(b.size(), 40, [&](std::size_t, std::size_t begin, std::size_t end) {
-    const FaceListView faces = faces_of(b, contacts);
+    const FaceListView faces = faces_of(b, contacts, forces);
     sum_faces_of_blocks(faces, b.vertex_begin.data(), values_of(on.x), values_of(on.y), begin, end);
     for (std::size_t i = begin; i < end; ++i) modes_of_faces(faces, b, i, on.modes);
   });
@@ -216,10 +217,6 @@ void gather_forces(NodalForces& forces, const BlockSet& b, const State& state, c
   parallel_blocks(b.size(), 40, [&](std::size_t, std::size_t begin, std::size_t end) {
     gather_forces(forces, b, state, pose, on_faces, springs, gravity, loads, locked, begin, end);
   });
-}
-
-Vec2 contact_resultant(const BlockSet& b, const FaceSet& c, std::size_t i) {
-  return resultant(of_faces(faces_of(b, c), b.vertex_begin[i], b.vertex_begin[i + 1]));
 }
 
 }  // namespace edda

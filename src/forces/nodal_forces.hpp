@@ -17,8 +17,9 @@ struct NodalForces {
 };
 
 /// Sums the forces of the faces on each block, in the order of FaceSet::for_faces(). Fixed blocks
-/// have theirs, too.
-void sum_faces(NodalForces& on_faces, const BlockSet& blocks, const FaceSet& contacts);
+/// have theirs, too. forces: corner_forces() of all faces.
+void sum_faces(NodalForces& on_faces, const BlockSet& blocks, const FaceSet& contacts,
+               const std::vector<double>& forces);
 
 /// Sizes forces for blocks, all 0.
 NodalForces no_forces(const BlockSet& blocks);
@@ -44,8 +45,5 @@ void gather_own_forces(NodalForces& forces, const BlockSet& blocks, const State&
                        const Pose& pose, const BoundarySprings& springs, Vec2 gravity,
                        const LoadsNow& loads, const ModeVectors& locked, std::size_t begin,
                        std::size_t end);
-
-/// Resultant of the contact forces on block i, N (for reactions).
-Vec2 contact_resultant(const BlockSet& blocks, const FaceSet& contacts, std::size_t i);
 
 }  // namespace edda

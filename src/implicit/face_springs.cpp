@@ -24,7 +24,7 @@ constexpr double touch = 1e-9;
 constexpr std::size_t cost_of_a_face = 150;
 
 /// Spring energies at one instant, U and p_t u^2/2 of each end, J.
-double energy_of(const FaceFields<double>& m) {
+double energy_of(const FaceFields& m) {
   return m.energy + 0.5 * m.spring * (m.slip_a * m.slip_a + m.slip_b * m.slip_b);
 }
 
@@ -44,7 +44,7 @@ bool touches(const TrialFaces& of, std::size_t k) {
 }
 
 /// The state of face k, which touches.
-std::uint8_t state_of(const FaceSet& c, const FaceFields<double>& m, std::size_t k) {
+std::uint8_t state_of(const FaceSet& c, const FaceFields& m, std::size_t k) {
   const bool carries_tension = c.carries_tension[k] > 0.0;
   return static_cast<std::uint8_t>((carries_tension || m.closure_a > 0.0 ? closed_a : 0) |
                                    (carries_tension || m.closure_b > 0.0 ? closed_b : 0) |
@@ -59,7 +59,7 @@ bool at_limit(double shear, double limit) {
 
 /// Ends that slid in the last step and still carry their full shear strength, before anything has
 /// moved.
-std::uint8_t slides_on(const FaceSprings& springs, const FaceFields<double>& m, std::size_t k) {
+std::uint8_t slides_on(const FaceSprings& springs, const FaceFields& m, std::size_t k) {
   const std::uint8_t was = springs.state[k];
   const bool a = (was & slides_a) != 0 && at_limit(m.shear_a, springs.limits[k].a);
   const bool b = (was & slides_b) != 0 && at_limit(m.shear_b, springs.limits[k].b);
@@ -112,8 +112,7 @@ void begin_springs(FaceSprings& s, const TrialFaces& of, const FaceScene& scene)
   s.first = false;
   const auto begin = [&](std::size_t k) {
     const bool carries = touches(of, k);
-    const FaceFields<double> m =
-        carries ? face_row(of, scene.blocks, scene.pose, k).state : FaceFields<double>{};
+    const FaceFields m = carries ? face_row(of, scene.blocks, scene.pose, k).state : FaceFields{};
     s.stored[k] = energy_of(m);
     s.state[k] = carries ? state_of(c, m, k) : 0;
     s.normal[k] = {m.normal_a + m.damping_a, m.normal_b + m.damping_b};
@@ -139,7 +138,7 @@ std::size_t evaluate_springs(FaceSprings& s, const TrialFaces& of, const FaceSce
     for (std::size_t k = begin; k < end; ++k) {
       std::uint8_t state = 0;
       if (touches(of, k)) {
-        const FaceFields<double> m = remembered(t, t.now, k);
+        const FaceFields m = remembered(t, t.now, k);
         state = state_of(c, m, k);
         if (first) state = static_cast<std::uint8_t>(state | slides_on(s, m, k));
       }
@@ -186,7 +185,7 @@ void account_springs(const FaceSprings& s, const TrialFaces& of, const FaceScene
   const auto account = [&](std::size_t k) {
     if (!touches(of, k) && s.stored[k] == 0.0) return;
     const FaceRow row = face_row(of, scene.blocks, scene.pose, k);
-    const FaceFields<double>& m = row.state;
+    const FaceFields& m = row.state;
     const double lost = taken_from_blocks(row, scene.pose) - (energy_of(m) - s.stored[k]);
     const double friction =
         m.spring * (m.slip_a * (m.trial_a - m.slip_a) + m.slip_b * (m.trial_b - m.slip_b));

@@ -10,7 +10,6 @@
 #include "base/text.hpp"
 #include "observe/balance.hpp"
 #include "step/labels.hpp"
-#include "step/tile_step.hpp"
 
 namespace edda {
 namespace {
@@ -21,7 +20,6 @@ constexpr std::uint64_t look_every = 32, find_moved_every = 128;  // steps
 
 Judge::Judge(Simulation& sim, std::vector<std::uint8_t> left_out)
     : left_out_(std::move(left_out)), left_(left_out_) {
-  update_face_rows(sim);
   motion_ = RelativeMotion(sim);
   begin(sim);
 }
@@ -37,7 +35,6 @@ void Judge::follow_supports(Simulation& sim) {
   constexpr double own_size = 1.0;
   if (!motion_.supports_have_moved(sim)) return;
   for (MovedSet& set : motion_.sets(sim, own_size, left_out_)) gone_.push_back(std::move(set));
-  update_face_rows(sim);
   motion_ = RelativeMotion(sim);
 }
 

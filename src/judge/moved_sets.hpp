@@ -40,7 +40,6 @@ bool counts_in_verdicts(const Simulation& sim, std::size_t i);
 class RelativeMotion {
  public:
   RelativeMotion() = default;
-  /// The rows of the faces must be up to date (update_face_rows()).
   explicit RelativeMotion(const Simulation& sim);
 
   /// Sets that have moved by more than the part `least` of their size, the largest part first; of

@@ -6,7 +6,6 @@
 #include "library/impl.hpp"
 #include "results/files.hpp"
 #include "step/changes.hpp"
-#include "step/tile_step.hpp"
 #include "study/limit_analysis.hpp"
 
 namespace edda::api {
@@ -186,7 +185,6 @@ void Simulation::Impl::throw_kept() {
 
 template <class Action>
 void Simulation::Impl::between_steps(Action action) {
-  update_face_rows(sim());
   instant_.reset();
   hand_over();
   keep_thrown(action);
@@ -291,7 +289,7 @@ const Instant& Simulation::Impl::look() {
   take_back();
   if (!instant_) {
     if (begun && driver) driver->count_revolutions_now();
-    observe_blocks(sim(), instant_.emplace());
+    observe(sim(), instant_.emplace());
   }
   return *instant_;
 }

@@ -76,7 +76,7 @@ std::vector<std::uint8_t> enclosed_blocks(const Simulation& sim) {
   bare = whole;
   for (std::size_t k = 0; k < c.size(); ++k) {
     if (!is_closed_now(sim, k)) continue;
-    const FaceFields<double> m = face_row(sim, k).state;
+    const FaceFields m = face_row(sim, k).state;
     bare[block_of_edge(b, c, k)] -= std::abs(m.xi_b - m.xi_a) * b.edge_length[c.edge[k]];
     bare[block_of_facing(b, c, k)] -= std::abs(m.eta_b - m.eta_a) * b.edge_length[c.facing[k]];
   }

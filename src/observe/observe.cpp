@@ -55,7 +55,7 @@ double slip_since_start(const BlockSet& b, const FaceRow& row) {
 void add_stresses(ContactRecord& r, const Simulation& sim, const FaceRow& row) {
   const FaceSet& f = row.of;
   const std::size_t k = row.k;
-  const FaceFields<double>& m = row.state;
+  const FaceFields& m = row.state;
   const bool carries_tension = f.carries_tension[k] > 0.0;
   const double a = carries_tension ? m.closure_a : std::max(m.closure_a, 0.0);
   const double b = carries_tension ? m.closure_b : std::max(m.closure_b, 0.0);
@@ -159,15 +159,6 @@ void place_points(const BlockSet& b, const State& s, Picture& p) {
 }
 
 }  // namespace
-
-void observe_blocks(const Simulation& sim, Instant& at) {
-  const Motion& motion = sim.motion;
-  at.state = motion.state;
-  at.forces = motion.forces;
-  gather_forces(at.forces, sim.scene->blocks, motion.state, motion.pose, motion.on_contacts,
-                sim.attached.springs, sim.scene->model.gravity, acting(sim), motion.locked);
-  sim.stepper->look(sim, at);
-}
 
 Picture picture_of(const Simulation& sim, const Instant& at) {
   Picture p;

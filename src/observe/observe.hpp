@@ -10,11 +10,6 @@
 
 namespace edda {
 
-/// Fills `at` as observe() does, but for the contacts: they are those of the simulation, with the
-/// forces at that instant, and ten times as large as the rest. The functions below take them from
-/// there. An Instant that is filled again keeps its memory.
-void observe_blocks(const Simulation& sim, Instant& at);
-
 /// The tables and frames at that instant, model coordinates.
 Picture picture_of(const Simulation& sim, const Instant& at);
 

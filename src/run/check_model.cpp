@@ -35,7 +35,7 @@ double step_rate(Simulation& sim, double end, double seconds) {
     if (sim.motion.state.time >= end) break;
     if (sim.control.steps_left == 0) fit_step_to(sim, end);
     if (!threads_are_given()) omp_set_num_threads(threads.now());
-    if (step_ahead(sim)) break;
+    if (step(sim)) break;
     ++steps;
     const double before = wall;
     wall = since(start);

@@ -135,7 +135,6 @@ void Driver::go_on() {
   if (paused_) reported_ += started_ - paused_at_;
   paused_ = pause_asked_ = false;
   within_memory([&] { follow_events(); });
-  update_face_rows(sim_);
   if (!over_) pause();
 }
 
@@ -218,7 +217,7 @@ void Driver::write_checkpoint_if_due() {
 std::optional<Failure> Driver::timed_step() {
   if (threads_) omp_set_num_threads(threads_->now());
   const auto start = Clock::now();
-  std::optional<Failure> failure = step_ahead(sim_);
+  std::optional<Failure> failure = step(sim_);
   const double seconds = since(start);
   if (threads_) threads_->stepped(seconds);
   outcome_.wall.stepping += seconds;
@@ -259,7 +258,7 @@ Driver::Arrival Driver::step_to(double time) {
 }
 
 const Instant& Driver::look() {
-  observe_blocks(sim_, instant_);
+  observe(sim_, instant_);
   return instant_;
 }
 

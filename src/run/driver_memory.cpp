@@ -14,7 +14,6 @@
 #include "run/ramp_memory.hpp"
 #include "run/simulation_memory.hpp"
 #include "run/wall_clock.hpp"
-#include "step/tile_step.hpp"
 
 namespace edda {
 namespace {
@@ -300,7 +299,6 @@ void Driver::write_memory(ImageBytes& image, std::size_t stages) {
 }
 
 void Driver::save_checkpoint() {
-  update_face_rows(sim_);
   forget_instant();
   saved_ = Clock::now();
   Trouble trouble = recorder_.sync();
@@ -321,7 +319,6 @@ bool Driver::save_stage_joints() {
 void Driver::save_stage() {
   if (!recorder_.writes() || !sim_.scene->model.output.stages || sim_.scene->model.stages.empty())
     return;
-  update_face_rows(sim_);
   if (!save_stage_joints()) return;
   stage_has_ended_ = true;
   Trouble trouble = recorder_.sync();

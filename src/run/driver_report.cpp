@@ -6,7 +6,6 @@
 #include "run/driver.hpp"
 #include "run/wall_clock.hpp"
 #include "step/contact_pairs.hpp"
-#include "step/tile_step.hpp"
 
 namespace edda {
 namespace {
@@ -23,7 +22,6 @@ bool all_finite(const Simulation& sim) {
 
 void Driver::write_end() {
   const auto start = Clock::now();
-  update_face_rows(sim_);
   outcome_.time = sim_.motion.state.time;
   outcome_.steps = sim_.motion.state.steps;
   const bool begun = last_row_.has_value();

@@ -9,13 +9,27 @@
 #include <vector>
 
 #include "contacts/face_set.hpp"
+#include "contacts/face_states.hpp"
 #include "contacts/laws.hpp"
 #include "paper/points.hpp"
 
 namespace edda {
 
+/// One of the fields of all faces.
 template <class Archive>
-void list_faces(Archive& a, FaceSet& c) {
+void list_field(Archive& a, const std::string& name, std::vector<FaceFields>& faces,
+                double FaceFields::*field) {
+  std::vector<double> values(faces.size());
+  for (std::size_t k = 0; k < faces.size(); ++k) values[k] = faces[k].*field;
+  a(name, values);
+  if constexpr (Archive::loads) {
+    faces.resize(values.size());
+    for (std::size_t k = 0; k < values.size(); ++k) faces[k].*field = values[k];
+  }
+}
+
+template <class Archive>
+void list_faces(Archive& a, FaceSet& c, FaceStates& states) {
   a("faces.edge", c.edge);
   a("faces.facing", c.facing);
   a("faces.law", c.law);
@@ -23,17 +37,15 @@ void list_faces(Archive& a, FaceSet& c) {
     if (c.facing.size() != c.size() || c.law.size() != c.size()) {
       return a.refuse("faces do not fit together");
     }
-    for (FaceMemory* m : {&c.now, &c.before}) m->clear_rows(c.size());
     c.clear_rows(c.size());
   }
   for (const auto& column : face_properties) {
     if (column.kept) a(std::string("faces.") + column.name, c.*column.values);
   }
-  for (const auto& column : face_columns) {
-    a(std::string("faces.now.") + column.name, c.now.*column.values);
-    a(std::string("faces.before.") + column.name, c.before.*column.values);
+  for (const FaceField& field : face_fields) {
+    list_field(a, std::string("faces.now.") + field.name, states.now, field.value);
+    list_field(a, std::string("faces.before.") + field.name, states.before, field.value);
   }
-  a("faces.force", c.force);
   a("faces.locked_start", c.locked_start);
   a("faces.locked_end", c.locked_end);
   a("faces.built_x", c.built_x);
@@ -78,29 +90,23 @@ void examine_points(Examiner& j, const PointSet& c, const BlockSet& b, const Law
   j.below("points.law", {c.law.begin(), c.law.end()}, laws.rows.size());
 }
 
-/// Whether what a face remembers is finite, at this step and the one before.
-inline bool all_finite(const FaceSet& c) {
-  for (const FaceMemory* memory : {&c.now, &c.before}) {
-    for (const auto& column : face_columns) {
-      const std::vector<double> values = (memory->*column.values).values();
-      if (!std::all_of(values.begin(), values.end(), [](double v) { return std::isfinite(v); }))
-        return false;
-    }
-  }
-  return true;
+/// Whether the numbers of a face are finite.
+inline bool is_finite(const FaceFields& m) {
+  return std::all_of(std::begin(face_fields), std::end(face_fields),
+                     [&](const FaceField& field) { return std::isfinite(m.*field.value); });
 }
 
 /// Checks the assumptions of complete_faces() and of the step: sizes, indices, finite numbers.
 /// Examiner: that of simulation_memory.cpp.
 template <class Examiner>
-void examine_faces(Examiner& j, const FaceSet& c, const BlockSet& b, const LawTable& laws) {
+void examine_faces(Examiner& j, const FaceSet& c, const FaceStates& states, const BlockSet& b,
+                   const LawTable& laws) {
   const std::size_t n = c.size(), nv = b.vertex_count();
   j.rows("faces", c.rows(), n);
-  j.rows("faces", c.now.rows(), n);
-  j.rows("faces", c.before.rows(), n);
+  j.rows("faces", states.now.size(), n);
+  j.rows("faces", states.before.size(), n);
   j.sized("faces.facing", c.facing, n);
   j.sized("faces.law", c.law, n);
-  j.sized("faces.force", c.force, c.force_size());
   for (const auto* values : {&c.built_x, &c.built_y}) j.sized("faces.built", *values, nv);
   if (!c.locked_start.empty()) j.sized("faces.locked", c.locked_start, nv);
   j.sized("faces.locked", c.locked_end, c.locked_start.size());
@@ -114,7 +120,11 @@ void examine_faces(Examiner& j, const FaceSet& c, const BlockSet& b, const LawTa
     if (!sorted || e >= f || b.vertex_block[e] == b.vertex_block[f])
       j.refuse("faces do not belong together");
   }
-  if (!all_finite(c)) j.refuse("faces have a number that is not finite");
+  const auto finite = [](const std::vector<FaceFields>& all) {
+    return std::all_of(all.begin(), all.end(), [](const FaceFields& m) { return is_finite(m); });
+  };
+  if (!finite(states.now) || !finite(states.before))
+    j.refuse("faces have a number that is not finite");
 }
 
 }  // namespace edda

@@ -13,6 +13,7 @@
 #include "run/attachment_memory.hpp"
 #include "run/face_memory.hpp"
 #include "run/implicit_memory.hpp"
+#include "step/tile_step.hpp"
 
 namespace edda {
 namespace {
@@ -194,7 +195,7 @@ void examine_places(Examiner& j, const Simulation& s) {
   }
 }
 
-void examine(Examiner& j, const Simulation& s) {
+void examine(Examiner& j, const Simulation& s, const FaceStates& faces) {
   const std::size_t nb = s.scene->blocks.size(), nv = s.scene->blocks.vertex_count();
   for (const Nodes* nodes :
        {&s.motion.state.x, &s.motion.state.y, &s.motion.state.vx, &s.motion.state.vy,
@@ -240,7 +241,7 @@ void examine(Examiner& j, const Simulation& s) {
   for (std::size_t i = 0; i < s.motion.masses.raised.size() && j.flaw().empty(); ++i) {
     for (const auto& mass : s.motion.masses.node) j.positive("node_mass", mass[i]);
   }
-  examine_faces(j, s.motion.contacts, s.scene->blocks, s.motion.laws);
+  examine_faces(j, s.motion.contacts, faces, s.scene->blocks, s.motion.laws);
   examine_points(j, s.point_contacts, s.scene->blocks, s.motion.laws);
   if (j.flaw().empty()) examine_places(j, s);
 }
@@ -248,10 +249,10 @@ void examine(Examiner& j, const Simulation& s) {
 }  // namespace
 
 template <class Archive>
-void list_memory(Archive& a, Simulation& s) {
+void list_memory(Archive& a, Simulation& s, FaceStates& faces) {
   list_state(a, s);
   if (s.scene->blocks.bending.any()) list_modes(a, s);
-  list_faces(a, s.motion.contacts);
+  list_faces(a, s.motion.contacts, faces);
   a("on_faces_x", s.motion.on_contacts.x);
   a("on_faces_y", s.motion.on_contacts.y);
   if (s.stepper == &paper_stepper) list_points(a, s.point_contacts);
@@ -283,21 +284,21 @@ void list_memory(Archive& a, Simulation& s) {
   }
 }
 
-void remember(const Simulation& sim, RecordSink& sink) {
+void remember(Simulation& sim, RecordSink& sink) {
   Saver saver(sink);
-  // Saver only reads.
-  // NOLINTNEXTLINE(cppcoreguidelines-pro-type-const-cast)
-  list_memory(saver, const_cast<Simulation&>(sim));
+  FaceStates faces = take_faces(sim);
+  list_memory(saver, sim, faces);
 }
 
-void remember(const Simulation& sim, Record& record) {
+void remember(Simulation& sim, Record& record) {
   RecordKeeper keeper(record);
   remember(sim, keeper);
 }
 
 std::string recall(Simulation& sim, const Record& record) {
   Loader loader(record);
-  list_memory(loader, sim);
+  FaceStates faces;
+  list_memory(loader, sim, faces);
   if (!loader.flaw().empty()) return loader.flaw();
   const std::vector<double> factors = sim.motion.laws.divided_by;
   if (factors.size() != sim.motion.laws.rows.size() ||
@@ -307,13 +308,14 @@ std::string recall(Simulation& sim, const Record& record) {
   }
   sim.motion.laws = divided_laws(sim.scene->model, factors);
   Examiner j;
-  examine(j, sim);
+  examine(j, sim, faces);
   if (!j.flaw().empty()) return j.flaw();
   complete_faces(sim.motion.contacts, sim.scene->blocks, sim.motion.laws);
   set_face_dashpots(sim.motion.contacts, sim.motion.laws, sim.motion.damping.contact);
   complete_points(sim.point_contacts, sim.scene->blocks, sim.motion.pose, sim.motion.laws);
   fill_point_masses(sim.motion.masses, sim.scene->blocks);
   fill_viscosity(sim.motion.masses, sim.scene->blocks, sim.motion.damping);
+  put_faces(sim, faces);
   return j.flaw();
 }
 

@@ -9,9 +9,9 @@
 namespace edda {
 
 /// Passes on everything that has changed since create(), each value under its own name.
-void remember(const Simulation& sim, RecordSink& sink);
+void remember(Simulation& sim, RecordSink& sink);
 /// The same, into memory.
-void remember(const Simulation& sim, Record& record);
+void remember(Simulation& sim, Record& record);
 
 /// Restores the state of `record` in a simulation made from the same model. Returns what is wrong
 /// with the record (missing, of another size, out of range), empty if nothing is; otherwise `sim`

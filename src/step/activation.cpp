@@ -181,14 +181,15 @@ void switch_over(Simulation& sim, const NamedRows& off, const NamedRows& on) {
 }
 
 void glue_joints(Simulation& sim, bool glued) {
-  FaceSet& contacts = faces_to_change(sim);
-  if (glued == contacts.gluing) return;
+  if (glued == sim.motion.contacts.gluing) return;
   const NodalForces before = forces_now(sim);
-  if (glued) {
-    glue_faces(contacts);
-  } else {
-    unglue_faces(contacts, sim.scene->blocks, sim.motion.pose);
-  }
+  change_faces(sim, [&](FaceSet& faces, const FaceStates& states) {
+    if (glued) {
+      glue_faces(faces, states);
+    } else {
+      unglue_faces(faces, sim.scene->blocks, sim.motion.pose);
+    }
+  });
   reevaluate_faces(sim);
   note_jump(sim, before);
 }

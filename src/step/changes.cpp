@@ -17,7 +17,9 @@ void change_damping(Simulation& sim, const Damping& now, bool carry_velocities) 
   damping = now;
   sim.motion.dynamic = carry_velocities;
   set_viscosity(sim);
-  set_face_dashpots(faces_to_change(sim), sim.motion.laws, damping.contact);
+  change_faces(sim, [&](FaceSet& faces, FaceStates&) {
+    set_face_dashpots(faces, sim.motion.laws, damping.contact);
+  });
   sim.control.limit = std::numeric_limits<double>::infinity();
   set_limit(sim);
 }
@@ -33,7 +35,7 @@ void take_strength_factors(Simulation& sim, const std::vector<double>& factors) 
   LawTable& laws = sim.motion.laws;
   if (factors == laws.divided_by) return;
   LawTable divided = divided_laws(sim.scene->model, factors);
-  take_strength(faces_to_change(sim), laws, divided);
+  change_faces(sim, [&](FaceSet& faces, FaceStates&) { take_strength(faces, laws, divided); });
   laws = std::move(divided);
   reevaluate_faces(sim);
 }

@@ -8,6 +8,7 @@
 #include "attachments/loads.hpp"
 #include "base/fault.hpp"
 #include "blocks/kinematics.hpp"
+#include "contacts/face_states.hpp"
 #include "model/stage_names.hpp"
 #include "step/divergence.hpp"
 
@@ -66,6 +67,6 @@ void lose_velocity(Simulation& sim, Vec2 v);
 /// Loads the outer faces with the initial stress, on boundaries too; at creation.
 void load_boundaries_with_initial_stress(Simulation& sim);
 /// Contact forces at the start; with an initial stress, those in equilibrium with it.
-void close_contacts(Simulation& sim);
+void close_contacts(Simulation& sim, FaceStates& states);
 
 }  // namespace edda

@@ -6,10 +6,11 @@
 
 #include "base/parallel.hpp"
 #include "contacts/approach.hpp"
-#include "contacts/evaluate_faces.hpp"
+#include "contacts/evaluate_face.hpp"
 #include "contacts/face_bonds.hpp"
 #include "contacts/face_reading.hpp"
-#include "contacts/find_faces.hpp"
+#include "contacts/tile_rows.hpp"
+#include "contacts/tile_trials.hpp"
 #include "step/changes.hpp"
 #include "step/faces_now.hpp"
 #include "step/simulation.hpp"
@@ -35,25 +36,20 @@ void sum_contact_forces(Simulation& sim) {
   sim.stepper->sum_contacts(sim);
 }
 
-void search_faces(Simulation& sim, const Reach& reach) {
-  if (sim.motion.tiled.loaded && steps_in_tiles(sim)) return search_in_tiles(sim, reach);
-  const BlockSet& blocks = sim.scene->blocks;
-  State& state = sim.motion.state;
-  Pose& pose = sim.motion.pose;
-  LawTable& laws = sim.motion.laws;
-  FaceSet& contacts = faces_to_change(sim);
-  find_faces(contacts, blocks, state, pose, laws, reach, sim.control.near_edges);
-  set_face_dashpots(contacts, laws, sim.motion.damping.contact);
-  sum_face_forces(sim);
-}
-
 /// Closed by the initial stress where there is one.
 void begin_faces(Simulation& sim) {
-  FaceSet& faces = sim.motion.contacts;
-  bond_faces(faces, sim.scene->blocks, sim.motion.pose, sim.motion.laws);
-  close_contacts(sim);
-  begin_from_step_end(faces);
+  Motion& motion = sim.motion;
+  FaceSet& faces = motion.contacts;
+  FaceTiles& tiles = motion.tiled.tiles;
+  change_faces(sim, [&](FaceSet&, FaceStates& states) {
+    bond_faces(faces, states, sim.scene->blocks, motion.pose, motion.laws);
+    if (sim.scene->model.initial_stress) close_contacts(sim, states);
+  });
+  evaluate_at_rest(sim, 1.0);
+  sum_face_forces(sim);
+  end_at_rest(faces, tiles, sim.scene->blocks, motion.pose);
   for (auto* work : {&faces.friction_work, &faces.transfer}) work->fill(0.0);
+  keep_trial(tiles, faces);
 }
 
 FaceScene face_scene(const Simulation& sim) {
@@ -61,7 +57,10 @@ FaceScene face_scene(const Simulation& sim) {
 }
 
 void sum_face_forces(Simulation& sim) {
-  sum_faces(sim.motion.on_contacts, sim.scene->blocks, sim.motion.contacts);
+  const Motion& motion = sim.motion;
+  const BlockSet& b = sim.scene->blocks;
+  sum_faces(sim.motion.on_contacts, b, motion.contacts,
+            corner_forces(motion.contacts, motion.tiled.tiles, b, motion.pose));
 }
 
 std::optional<Failure> deep_overlap_of_faces(const Simulation& sim) {
@@ -75,7 +74,7 @@ std::optional<Failure> deep_overlap_of_faces(const Simulation& sim) {
 
 void reevaluate_faces(Simulation& sim) {
   if (sim.control.step_before > 0.0) {
-    evaluate_faces(faces_to_change(sim), face_scene(sim), sim.control.step_before);
+    evaluate_at_rest(sim, sim.control.step_before);
     sum_contact_forces(sim);
   }
 }

@@ -1,7 +1,7 @@
 // The list of possible contacts, and when it is renewed (theory, section 7.5).
 #pragma once
 
-#include "contacts/evaluate_faces.hpp"
+#include "contacts/evaluate_face.hpp"
 #include "contacts/near_edges.hpp"
 #include "step/divergence.hpp"
 
@@ -22,7 +22,6 @@ void reevaluate_faces(Simulation& sim);
 void search(Simulation& sim, const Reach& reach);
 
 // Of faces, for the methods of stepping (step/stepper.hpp):
-void search_faces(Simulation& sim, const Reach& reach);
 void begin_faces(Simulation& sim);
 void sum_face_forces(Simulation& sim);
 std::optional<Failure> deep_overlap_of_faces(const Simulation& sim);

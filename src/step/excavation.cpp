@@ -13,13 +13,14 @@ namespace edda {
 namespace {
 
 /// Forces of the rock that is excavated on the rock that stays, from the contacts as they are now.
-std::vector<WallForce> wall_forces(const BlockSet& b, const FaceSet& f,
-                                   const std::vector<std::uint8_t>& goes) {
+std::vector<WallForce> wall_forces(const Simulation& sim, const std::vector<std::uint8_t>& goes) {
+  const BlockSet& b = sim.scene->blocks;
+  const FaceSet& f = sim.motion.contacts;
   std::vector<WallForce> walls;
   for (std::size_t k = 0; k < f.size(); ++k) {
     const Id i = block_of_edge(b, f, k), j = block_of_facing(b, f, k);
-    if (goes[i] == goes[j] || !is_closed(f, k)) continue;
-    const CornerForces on = corner_forces(f, k);
+    if (goes[i] == goes[j] || !is_closed_now(sim, k)) continue;
+    const CornerForces on = face_row(sim, k).force;
     const auto keep = [&](Id edge, Vec2 start, Vec2 end, Id of) {
       walls.push_back({edge, start, b.opening[of]});
       walls.push_back({b.next[edge], end, b.opening[of]});
@@ -28,6 +29,12 @@ std::vector<WallForce> wall_forces(const BlockSet& b, const FaceSet& f,
     if (goes[i] != 0 && !b.fixed[j]) keep(f.facing[k], on.q1, on.q2, i);
   }
   return walls;
+}
+
+/// The list of contacts, and what they carry, without those of blocks that have been removed.
+void search_without_removed(Simulation& sim) {
+  search(sim, {sim.motion.contacts.reach, sim.motion.contacts.reach_behind});
+  sum_contact_forces(sim);
 }
 
 }  // namespace
@@ -45,10 +52,9 @@ bool set_aside(Simulation& sim, const Failure& failure) {
   }
   if (out > most * all) return false;
   const double energy = total_energy(sim);
-  faces_to_change(sim);
   state.alive[failure.block] = 0;
   store({}, state.vx, state.vy, failure.block);
-  search(sim, {sim.motion.contacts.reach, sim.motion.contacts.reach_behind});
+  search_without_removed(sim);
   sim.accounts.external_work += total_energy(sim) - energy;
   sim.accounts.set_aside.push_back({failure.block, failure.time, failure.place});
   return true;
@@ -66,7 +72,7 @@ void excavate(Simulation& sim, const std::vector<Index>& openings) {
     goes[i] = named && state.alive[i] != 0 ? 1 : 0;
     if (goes[i] != 0) going.insert(blocks.opening[i]);
   }
-  const std::vector<WallForce> on_walls = wall_forces(blocks, faces_to_change(sim), goes);
+  const std::vector<WallForce> on_walls = wall_forces(sim, goes);
   for (std::size_t i = 0; i < blocks.size(); ++i) {
     if (goes[i] == 0) continue;
     state.alive[i] = 0;
@@ -75,7 +81,7 @@ void excavate(Simulation& sim, const std::vector<Index>& openings) {
   for (const Index o : going)
     sim.attached.loads.remaining[static_cast<std::size_t>(o)] = {0.0, 1.0, state.time};
   keep(sim, on_walls);
-  search(sim, {sim.motion.contacts.reach, sim.motion.contacts.reach_behind});
+  search_without_removed(sim);
   sim.accounts.external_work += total_energy(sim) - energy;
 }
 

@@ -204,14 +204,14 @@ class Correction {
   /// Completes f where the face stored energy at n, and opens or closes in this step or did so in
   /// the last; elsewhere f.face becomes no_id.
   void add_if_it_switches(SwitchingFace& f) {
-    const FaceFields<double> before = access_.before(f.face);
+    const FaceFields before = access_.before(f.face);
     if (before.energy > 0.0 && c_.carries_tension[f.face] == 0.0 &&
         (before.switched > 0.0 || access_.switches(f.face)))
       return complete(f, before);
     f.face = no_id;
   }
 
-  void complete(SwitchingFace& f, const FaceFields<double>& row) {
+  void complete(SwitchingFace& f, const FaceFields& row) {
     const Id k = f.face;
     f.before = row;
     f.then = face_points(c_, pose_.x2, pose_.y2, k);
@@ -288,25 +288,6 @@ class Correction {
 
 }  // namespace
 
-void FaceRows::evaluate(const std::vector<Id>& blocks, const std::vector<SwitchingFace>& corrected,
-                        std::vector<Id>& switching) {
-  for (const SwitchingFace& f : corrected) set_row(faces_.before, f.face, f.before);
-  const BlockSet& b = scene_.blocks;
-  for (const Id i : blocks) {
-    faces_.for_faces(b.vertex_begin[i], b.vertex_begin[i + 1], [&](Id k, bool) {
-      evaluate_face(faces_, scene_, step_, k);
-      if (faces_.now.switched[k] > 0.0 || faces_.before.switched[k] > 0.0) switching.push_back(k);
-    });
-  }
-}
-
-void FaceRows::finish(const std::vector<SwitchingFace>& corrected) {
-  for (const SwitchingFace& f : corrected) {
-    set_row(faces_.before, f.face, f.before);
-    evaluate_face(faces_, scene_, step_, f.face);
-  }
-}
-
 void correct_switching(FaceSet& c, const StepTaken& taken, OpenCloseCounts& counts,
                        FaceSwitchingScratch& scratch, const std::vector<Id>& switching,
                        FaceAccess& access) {
@@ -327,22 +308,6 @@ void correct_switching(FaceSet& c, const StepTaken& taken, OpenCloseCounts& coun
   }
   for (const SwitchingFace& f : scratch.set) ++counts.of_face[f.face];
   if (!correction.has_converged()) ++counts.not_converged;
-}
-
-std::vector<Id> switching_faces(const FaceSet& c) {
-  std::vector<Id> found;
-  for (std::size_t q = 0; q < c.switching.size(); ++q) {
-    if (c.switching[q] == 0) continue;
-    const std::size_t end = std::min(c.size(), (q + 1) * FaceSet::chunk);
-    for (std::size_t k = q * FaceSet::chunk; k < end; ++k) found.push_back(static_cast<Id>(k));
-  }
-  return found;
-}
-
-double largest_closure(const FaceSet& c) {
-  double depth = 0.0;
-  for (const double d : c.deepest) depth = std::max(depth, d);
-  return depth;
 }
 
 }  // namespace edda

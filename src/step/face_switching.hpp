@@ -8,7 +8,7 @@
 
 #include "blocks/pose.hpp"
 #include "blocks/state.hpp"
-#include "contacts/evaluate_faces.hpp"
+#include "contacts/evaluate_face.hpp"
 #include "contacts/face_energy.hpp"
 #include "step/push_block.hpp"
 
@@ -27,15 +27,15 @@ struct OpenCloseCounts {
 /// A face of which an end opened or closed in the last two steps.
 struct SwitchingFace {
   Id face;
-  FaceFields<double> before;  ///< its state at n, with the present alpha
-  FacePoints then, at;        ///< corners at n - 1 and n
-  Face element;               ///< element at n
-  Face risen;          ///< the same with the locked closure of n + 1, which dilation has raised
-  double risen_by;     ///< J, work of that dilation
-  CornerForces force;  ///< its force at n with the present alpha, shear included
-  double stored;       ///< U_{n-1/2}, J
-  double stored_next;  ///< U_{n+1/2}, J
-  bool was_closed;     ///< at n - 1
+  FaceFields before;    ///< its state at n, with the present alpha
+  FacePoints then, at;  ///< corners at n - 1 and n
+  Face element;         ///< element at n
+  Face risen;           ///< the same with the locked closure of n + 1, which dilation has raised
+  double risen_by;      ///< J, work of that dilation
+  CornerForces force;   ///< its force at n with the present alpha, shear included
+  double stored;        ///< U_{n-1/2}, J
+  double stored_next;   ///< U_{n+1/2}, J
+  bool was_closed;      ///< at n - 1
   double own_work;  ///< work of the whole normal force on the displacement it makes in the step, J
   double alpha;     ///< activation factor: part of the normal force that acts
   std::uint64_t corrected_at;  ///< SwitchingGroup::corrections when it was last corrected
@@ -87,7 +87,7 @@ class FaceAccess {
   virtual bool switches(Id k) const = 0;
   /// The state of face k at n. Brings its accumulated work up to date, for as long as the
   /// correction lasts.
-  virtual FaceFields<double> before(Id k) = 0;
+  virtual FaceFields before(Id k) = 0;
   /// Evaluates the faces of these blocks, which have been pushed, and appends those that may
   /// switch. corrected: faces of which the state at n has changed.
   virtual void evaluate(const std::vector<Id>& blocks, const std::vector<SwitchingFace>& corrected,
@@ -96,34 +96,11 @@ class FaceAccess {
   virtual void finish(const std::vector<SwitchingFace>& corrected) = 0;
 };
 
-/// Faces whose rows are up to date.
-class FaceRows : public FaceAccess {
- public:
-  FaceRows(FaceSet& faces, const FaceScene& scene, double step)
-      : faces_(faces), scene_(scene), step_(step) {}
-  bool switches(Id k) const override { return faces_.now.switched[k] > 0.0; }
-  FaceFields<double> before(Id k) override { return row_of(faces_.before, k); }
-  void evaluate(const std::vector<Id>& blocks, const std::vector<SwitchingFace>& corrected,
-                std::vector<Id>& switching) override;
-  void finish(const std::vector<SwitchingFace>& corrected) override;
-
- private:
-  FaceSet& faces_;
-  FaceScene scene_;
-  double step_;
-};
-
 /// On entry: positions and faces of step n + 1, made with the whole forces of step n. On return
 /// both are final, and `before` of the faces holds the forces that acted at n. switching: the faces
 /// that may switch, ascending.
 void correct_switching(FaceSet& faces, const StepTaken& taken, OpenCloseCounts& counts,
                        FaceSwitchingScratch& scratch, const std::vector<Id>& switching,
                        FaceAccess& access);
-
-/// The faces of chunks in which one may switch (FaceSet::switching).
-std::vector<Id> switching_faces(const FaceSet& faces);
-
-/// Largest drawn closure of a face that carries load, m.
-double largest_closure(const FaceSet& faces);
 
 }  // namespace edda

@@ -5,7 +5,7 @@
 
 #include "base/parallel.hpp"
 #include "contacts/activity.hpp"
-#include "contacts/evaluate_faces.hpp"
+#include "contacts/evaluate_face.hpp"
 #include "contacts/face_energy.hpp"
 #include "contacts/face_reading.hpp"
 #include "contacts/tile_columns.hpp"
@@ -20,7 +20,7 @@ Face face_now(const Simulation& sim, std::size_t k) {
   return face_at(sim.motion.contacts, sim.scene->blocks, pose.x, pose.y, k);
 }
 
-/// Forces of the dashpots across the ends of face k, which is in tiles, N.
+/// Forces of the dashpots across the ends of face k, N.
 FaceEnds dashpots_across(const Simulation& sim, std::size_t k) {
   const FaceTiles& t = sim.motion.tiled.tiles;
   const Id place = t.place[k][0];
@@ -29,19 +29,7 @@ FaceEnds dashpots_across(const Simulation& sim, std::size_t k) {
   return {memory.damping_a, memory.damping_b};
 }
 
-/// Rows whose ratio is larger than `above`, where they are up to date.
-std::vector<Id> faces_that_exceed(const Simulation& sim, double above) {
-  const FaceSet& c = sim.motion.contacts;
-  std::vector<Id> found;
-  for (std::size_t k = 0; k < c.size(); ++k) {
-    if (c.now.energy[k] > 0.0 &&
-        closure_of(c, k) > above * narrower_radius(sim.scene->blocks, c, k))
-      found.push_back(static_cast<Id>(k));
-  }
-  return found;
-}
-
-/// Rows in tiles, ascending, whose ratio may be larger than `above`: of a chunk the tiles know an
+/// Faces, ascending, whose ratio may be larger than `above`: of a chunk the tiles know an
 /// upper bound of the closures.
 std::vector<Id> faces_that_may_exceed(const Simulation& sim, double above) {
   constexpr double rounding = 1e-9;  // in which the tiles may be off
@@ -64,19 +52,16 @@ std::vector<Id> faces_that_may_exceed(const Simulation& sim, double above) {
 }  // namespace
 
 FaceRow face_row(const Simulation& sim, std::size_t k) {
-  const TiledFaces& tiled = sim.motion.tiled;
-  if (!tiled.ahead) return face_row(sim.motion.contacts, k);
-  return face_row(sim.motion.contacts, tiled.tiles, sim.scene->blocks, sim.motion.pose, k);
+  return face_row(sim.motion.contacts, sim.motion.tiled.tiles, sim.scene->blocks, sim.motion.pose,
+                  k);
 }
 
 bool has_opened(const Simulation& sim, std::size_t k) {
-  if (!sim.motion.tiled.ahead) return sim.motion.contacts.opened[k] > 0.0;
   return sim.motion.tiled.tiles.has_ever(lane_bits::opens, k);
 }
 
 bool is_closed_now(const Simulation& sim, std::size_t k) {
   const FaceSet& c = sim.motion.contacts;
-  if (!sim.motion.tiled.ahead) return is_closed(c, k);
   const FaceTiles& t = sim.motion.tiled.tiles;
   return t.remembers(lane_bits::stored, k) || (c.bonded[k] > 0.0 && t.remembers(lane_bits::on, k));
 }
@@ -88,9 +73,6 @@ constexpr std::size_t cost_of_a_face = 100 / seldom;  // ns, of closed faces and
 FaceWork work_now(const Simulation& sim, std::size_t k) {
   const FaceSet& c = sim.motion.contacts;
   const FaceTiles& t = sim.motion.tiled.tiles;
-  if (!sim.motion.tiled.ahead)
-    return {c.friction_work[k], c.damping_work[k], c.fracture_work[k], c.transfer[k],
-            c.now.damping_due[k]};
   const Id place = t.place[k][0];
   if (place == no_id) return {0.0, 0.0, c.fracture_work[k], 0.0, 0.0};
   const auto sums = get<FaceSumColumns<double>>(t.sums, place);
@@ -99,7 +81,7 @@ FaceWork work_now(const Simulation& sim, std::size_t k) {
           fresh ? get<FaceWorkColumns<double>>(t, t.now, place).damping_due : 0.0};
 }
 
-/// Normal force of face k, which is in tiles and is this element now, N.
+/// Normal force of face k, which is this element now, N.
 double normal_of(const Simulation& sim, const Face& face, std::size_t k) {
   const FaceEnds dashpots = dashpots_across(sim, k);
   return face.normal.a + face.normal.b + dashpots.a + dashpots.b;
@@ -108,8 +90,6 @@ double normal_of(const Simulation& sim, const Face& face, std::size_t k) {
 NormalNow normal_now(const Simulation& sim, std::size_t k) {
   if (!is_closed_now(sim, k)) return {};
   const FaceSet& c = sim.motion.contacts;
-  if (!sim.motion.tiled.ahead)
-    return {normal_force(c, k), c.stiffness[k] * c.now.length[k] * c.now.gate[k]};
   const Face face = face_now(sim, k);
   return {normal_of(sim, face, k), c.stiffness[k] * std::max(face.length, 0.0) * face.gate};
 }
@@ -140,11 +120,6 @@ FaceMeasures measure_faces(const Simulation& sim) {
                    std::vector<FaceWork>(c.size())};
   const auto measure = [&](std::size_t k) {
     all.work[k] = work_now(sim, k);
-    if (!sim.motion.tiled.ahead) {
-      all.normal[k] = normal_now(sim, k).force;
-      all.energy[k] = face_energy(c, b, sim.motion.pose, k);
-      return;
-    }
     const Id place = t.place[k][0];
     if (place == no_id) return;
     const auto old = get<FaceMemoryColumns<double>>(t, 1 - t.now, place);
@@ -173,10 +148,8 @@ DeepestNow deepest_now(const Simulation& sim, double above) {
   const FaceSet& c = sim.motion.contacts;
   const BlockSet& b = sim.scene->blocks;
   const Pose& pose = sim.motion.pose;
-  const std::vector<Id> among =
-      sim.motion.tiled.ahead ? faces_that_may_exceed(sim, above) : faces_that_exceed(sim, above);
   DeepestNow deepest;
-  for (const Id k : among) {
+  for (const Id k : faces_that_may_exceed(sim, above)) {
     const Face face = face_now(sim, k);
     const double depth = drawn_closure(c, face.closure, k), radius = narrower_radius(b, c, k);
     if (!(face.energy > 0.0) || !(depth > std::max(above, deepest.ratio) * radius)) continue;

@@ -1,5 +1,4 @@
-// What faces carry at the present positions, also while their rows are behind (step/tile_step.hpp):
-// for looks every few steps, which need few faces and would otherwise bring all rows up to date.
+// What faces carry at the end of the last step.
 #pragma once
 
 #include <cstddef>

@@ -1,10 +1,8 @@
 // Initial stress on boundaries and contacts at the start of a simulation.
 #include "attachments/initial_forces.hpp"
-#include "contacts/evaluate_faces.hpp"
 #include "contacts/face_bonds.hpp"
 #include "contacts/face_preload.hpp"
 #include "step/changes.hpp"
-#include "step/contact_search.hpp"
 #include "step/simulation.hpp"
 
 namespace edda {
@@ -25,16 +23,10 @@ void load_boundaries_with_initial_stress(Simulation& sim) {
   if (!wall_forces.empty()) keep(sim, wall_forces);
 }
 
-void close_contacts(Simulation& sim) {
+void close_contacts(Simulation& sim, FaceStates& states) {
   const Model& model = sim.scene->model;
   const BlockSet& blocks = sim.scene->blocks;
-  const Pose& pose = sim.motion.pose;
-  const LawTable& laws = sim.motion.laws;
   FaceSet& contacts = sim.motion.contacts;
-  if (!model.initial_stress) {
-    evaluate_faces(contacts, face_scene(sim), 1.0);
-    return sum_face_forces(sim);
-  }
   const StressField field(model, blocks.origin);
   const LoadsNow at_start = loads_at(model, sim.attached.loads, 0.0);
   const FaceForces faces(blocks, field, at_start);
@@ -43,10 +35,9 @@ void close_contacts(Simulation& sim) {
   sim.accounts.initial.emplace();
   // Joints that the first stage glues are checked against their own strength when they are unglued.
   const bool glued = !model.stages.empty() && model.stages.front().joints == StageJoints::glued;
-  sim.accounts.initial->joints = preload_faces(contacts, blocks, pose, laws, traction);
-  if (glued) glue_faces(contacts);
-  evaluate_faces(contacts, face_scene(sim), 1.0);
-  sum_face_forces(sim);
+  sim.accounts.initial->joints =
+      preload_faces(contacts, states, blocks, sim.motion.pose, sim.motion.laws, traction);
+  if (glued) glue_faces(contacts, states);
 }
 
 }  // namespace edda

@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "blocks/state.hpp"
-#include "contacts/face_set.hpp"
 #include "forces/nodal_forces.hpp"
 
 namespace edda {
@@ -16,12 +15,12 @@ struct Simulation;
 /// copies are large: do not keep one per row of output.
 struct Instant {
   State state;                    ///< x, y and v at n
-  FaceSet contacts;               ///< with the forces at n
   NodalForces forces;             ///< at n, N
   std::vector<Vec2> on_dashpots;  ///< at n, N
 };
 
-/// Fills `at` from the simulation after start() or step().
+/// Fills `at` from the simulation after start() or step(). The contacts at that instant are those
+/// of the simulation. An Instant that is filled again keeps its memory.
 void observe(const Simulation& sim, Instant& at);
 
 }  // namespace edda

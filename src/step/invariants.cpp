@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "contacts/joint_strength.hpp"
+#include "step/faces_now.hpp"
 #include "step/simulation.hpp"
 
 namespace edda {
@@ -34,34 +35,35 @@ bool in_range(double value, double from, double to) {
 }
 
 /// At one end: half of the cohesion and the friction of its normal force.
-bool within_limit(const FaceSet& c, std::size_t k, double shear, double normal) {
+bool within_limit(const FaceRow& r, double shear, double normal) {
   const double limit =
-      coulomb_limit(0.5 * c.cohesion[k] * c.now.cohesive[k], c.friction[k], normal);
+      coulomb_limit(0.5 * r.of.cohesion[r.k] * r.state.cohesive, r.of.friction[r.k], normal);
   return std::abs(shear) <= limit * (1.0 + 1e-9) + 1e-6;
 }
 
 std::string of_face(const Simulation& sim, std::size_t k) {
   const FaceSet& c = sim.motion.contacts;
   const BlockSet& b = sim.scene->blocks;
-  const FaceMemory& m = c.now;
+  const FaceRow row = face_row(sim, k);
+  const FaceFields& m = row.state;
   if (c.edge[k] >= c.facing[k] || c.facing[k] >= b.vertex_count()) return "edges are out of range";
   if (b.vertex_block[c.edge[k]] == b.vertex_block[c.facing[k]]) return "joins a block to itself";
   if (c.law[k] >= sim.motion.laws.rows.size()) return "has no law";
-  for (const auto& column : face_columns) {
-    if (!std::isfinite((m.*column.values)[k])) return fmt::format("{} is not finite", column.name);
+  for (const FaceField& field : face_fields) {
+    if (!std::isfinite(m.*field.value)) return fmt::format("{} is not finite", field.name);
   }
-  if (!in_range(m.gate[k], 0.0, 1.0)) return "gate is out of [0, 1]";
-  if (m.energy[k] < 0.0) return "stores less than nothing";
-  if (m.friction_work[k] < 0.0) return "friction creates energy";
-  if (m.length[k] < 0.0) return "overlap is negative";
-  if (m.energy[k] == 0.0) return {};
-  for (const double at : {m.xi_a[k], m.xi_b[k], m.eta_a[k], m.eta_b[k]}) {
+  if (!in_range(m.gate, 0.0, 1.0)) return "gate is out of [0, 1]";
+  if (m.energy < 0.0) return "stores less than nothing";
+  if (m.friction_work < 0.0) return "friction creates energy";
+  if (m.length < 0.0) return "overlap is negative";
+  if (m.energy == 0.0) return {};
+  for (const double at : {m.xi_a, m.xi_b, m.eta_a, m.eta_b}) {
     if (!in_range(at, 0.0, 1.0)) return "an end lies beyond its edge";
   }
   const bool free = is_explicit(sim) && c.bonded[k] == 0.0 && !c.dashpots &&
                     !sim.motion.laws.any_changes && !c.gluing;
-  if (free && !(within_limit(c, k, m.shear_a[k], m.normal_a[k]) &&
-                within_limit(c, k, m.shear_b[k], m.normal_b[k]))) {
+  if (free &&
+      !(within_limit(row, m.shear_a, m.normal_a) && within_limit(row, m.shear_b, m.normal_b))) {
     return "carries more shear than its limit";
   }
   return {};

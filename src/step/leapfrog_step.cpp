@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "base/parallel.hpp"
-#include "contacts/evaluate_faces.hpp"
+#include "contacts/evaluate_face.hpp"
 #include "contacts/joint_laws.hpp"
 #include "forces/dashpot_forces.hpp"
 #include "step/contact_search.hpp"
@@ -43,7 +43,6 @@ void start_leapfrog(Simulation& sim) {
   const BlockSet& blocks = sim.scene->blocks;
   State& state = sim.motion.state;
   Pose& pose = sim.motion.pose;
-  FaceSet& contacts = faces_to_change(sim);
   NodalForces& forces = sim.motion.forces;
   LeapfrogStep& own = sim.leapfrog;
   const double h = state.step;
@@ -58,8 +57,10 @@ void start_leapfrog(Simulation& sim) {
       pose.y1[v] = pose.y[v] - h * pose.y1[v];
     });
     start_ground(sim, h);
-    correct_last_step(contacts, blocks, pose, old_x1, old_y1);
-    evaluate_faces(contacts, face_scene(sim), h);
+    change_faces(sim, [&](const FaceSet& faces, FaceStates& states) {
+      correct_last_step(faces, states, blocks, pose, old_x1, old_y1);
+    });
+    evaluate_at_rest(sim, h);
     sum_contact_forces(sim);
   };
   look_back();
@@ -112,18 +113,6 @@ bool move_blocks(Simulation& sim, double h_old, const LoadsNow& at_work) {
   return true;
 }
 
-/// Evaluates the faces at n + 1, with the strength after the accumulated slip.
-void place_faces(Simulation& sim) {
-  sim.motion.contacts.risen.clear();
-  sim.motion.contacts.risen_by.clear();
-  if (steps_in_tiles(sim)) return place_in_tiles(sim);
-  const LawTable& laws = sim.motion.laws;
-  FaceSet& contacts = faces_to_change(sim);
-  next_step(contacts);
-  if (laws.any_changes) update_joint_laws(contacts, sim.scene->blocks, sim.motion.pose, laws);
-  evaluate_faces(contacts, face_scene(sim), sim.motion.state.step);
-}
-
 /// Contact activation: corrects the faces that opened or closed from n to n + 1.
 void switch_faces(Simulation& sim, double h_old) {
   Motion& motion = sim.motion;
@@ -143,32 +132,13 @@ void switch_faces(Simulation& sim, double h_old) {
                           own.damps.kicks,
                           &own.old_rate,
                           sim.motion.masses.mode_damping[0].empty() ? nullptr : &own.mode_damping};
-    if (motion.tiled.ahead) {
-      switch_in_tiles(sim, taken);
-    } else {
-      FaceRows rows(motion.contacts, face_scene(sim), motion.state.step);
-      correct_switching(motion.contacts, taken, accounts.open_close, own.switching,
-                        switching_faces(motion.contacts), rows);
-    }
+    switch_in_tiles(sim, taken);
   }
-  if (motion.tiled.ahead) {
-    accounts.penetration = largest_closure(motion.tiled);
-  } else {
-    sum_face_forces(sim);
-    accounts.penetration = largest_closure(motion.contacts);
-  }
-}
-
-void load_faces_to_step(Simulation& sim) {
-  if (steps_in_tiles(sim)) {
-    load_tiles(sim);
-  } else {
-    faces_to_change(sim);
-  }
+  accounts.penetration = largest_closure(motion.tiled);
 }
 
 void evaluate_and_switch_faces(Simulation& sim, double h_old) {
-  place_faces(sim);
+  place_in_tiles(sim);
   switch_faces(sim, h_old);
 }
 
@@ -201,28 +171,16 @@ void adjust_step(Simulation& sim) {
   }
 }
 
-/// Brings the rows of the faces to step n, where the step to n + 1 has failed.
-void update_faces_before(Simulation& sim) {
-  Pose& pose = sim.motion.pose;
-  const auto turn = [&] {
-    std::swap(pose.x, pose.x1);
-    std::swap(pose.y, pose.y1);
-  };
-  const auto turn_old = [&] {
-    std::swap(pose.x1, pose.x2);
-    std::swap(pose.y1, pose.y2);
-  };
-  turn();
-  turn_old();
-  update_face_rows(sim);
-  turn_old();
-  turn();
+/// Puts the vertices back to step n, at which the contacts are, where the step to n + 1 has failed.
+void leave_vertices_at_n(Pose& pose) {
+  std::swap(pose.x, pose.x1);
+  std::swap(pose.y, pose.y1);
+  std::swap(pose.x1, pose.x2);
+  std::swap(pose.y1, pose.y2);
 }
 
 std::optional<Failure> step_leapfrog(Simulation& sim) {
-  return leap(sim, {.load = load_faces_to_step,
-                    .evaluate = evaluate_and_switch_faces,
-                    .restore = update_faces_before});
+  return leap(sim, {.begin = fit_tiles, .evaluate = evaluate_and_switch_faces});
 }
 
 void set_leapfrog_limit(Simulation& sim) {
@@ -239,10 +197,11 @@ std::optional<Failure> leap(Simulation& sim, const LeapContacts& contacts) {
   split_jump(sim);
   const LoadsNow at_work = acting(sim);
   clock.lap(seconds.forces);
-  contacts.load(sim);
+  contacts.begin(sim);
   if (!move_blocks(sim, h_old, at_work)) {
-    contacts.restore(sim);
-    return lost(sim);
+    const Failure failure = lost(sim);
+    leave_vertices_at_n(sim.motion.pose);
+    return failure;
   }
   clock.lap(seconds.integrate);
   sim.leapfrog.switching.on_fixed = {};
@@ -363,7 +322,7 @@ const Stepper leapfrog_stepper{.start = start_leapfrog,
                                .step = step_leapfrog,
                                .look = look_leapfrog,
                                .remaining_travel = remaining_travel_of_leapfrog,
-                               .search = search_faces,
+                               .search = search_in_tiles,
                                .begin_contacts = begin_faces,
                                .sum_contacts = sum_face_forces,
                                .deep_overlap = deep_overlap_of_faces,

@@ -19,10 +19,9 @@ namespace edda {
 
 /// What a step of the leapfrog does with the contacts.
 struct LeapContacts {
-  void (*load)(Simulation&);  ///< before the blocks move
+  void (*begin)(Simulation&);  ///< before the blocks move
   /// State and forces at n + 1; h_old: the step before, s.
   void (*evaluate)(Simulation&, double h_old);
-  void (*restore)(Simulation&);  ///< those of n, where the step has failed
 };
 std::optional<Failure> leap(Simulation& sim, const LeapContacts& contacts);
 

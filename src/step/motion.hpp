@@ -17,13 +17,12 @@ namespace edda {
 struct Motion {
   State state;
   Pose pose;
-  Masses masses;  ///< in force
-  LawTable laws;  ///< with the strength in force
-  FaceSet contacts;
-  TiledFaces tiled;  ///< the faces in tiles, which step them; until the rows of `contacts` are
-                     ///< brought up to date (step/tile_step.hpp) they alone know the states
-  NodalForces on_contacts;  ///< forces of the contacts at n on the blocks, N; of fixed
-                            ///< ones only where the ground moves or faces are stepped by rows
+  Masses masses;            ///< in force
+  LawTable laws;            ///< with the strength in force
+  FaceSet contacts;         ///< the list of faces, and what is decided of them
+  TiledFaces tiled;         ///< and their states
+  NodalForces on_contacts;  ///< forces of the contacts at n on the blocks, N; in steps of fixed
+                            ///< ones only where the ground moves
   NodalForces forces;
   ModeVectors locked;  ///< [modes] N, in the frame of each block: forces on its modes that balance
                        ///< the initial stress; or empty

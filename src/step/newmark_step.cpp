@@ -7,7 +7,8 @@
 #include <limits>
 
 #include "base/parallel.hpp"
-#include "contacts/evaluate_faces.hpp"
+#include "contacts/evaluate_face.hpp"
+#include "contacts/tile_trials.hpp"
 #include "step/contact_search.hpp"
 #include "step/face_switching.hpp"
 #include "step/instant.hpp"
@@ -89,13 +90,12 @@ void set_newmark_limit(Simulation& sim) {
 void start_newmark(Simulation& sim) {
   const State& state = sim.motion.state;
   Pose& pose = sim.motion.pose;
-  FaceSet& contacts = faces_to_change(sim);
   sim.control.step_before = state.step;
   pose.x1 = pose.x;
   pose.y1 = pose.y;
-  evaluate_faces(contacts, face_scene(sim), state.step);
+  evaluate_at_rest(sim, state.step);
   sum_face_forces(sim);
-  begin_from_step_end(contacts);
+  end_at_rest(sim.motion.contacts, sim.motion.tiled.tiles, sim.scene->blocks, pose);
 }
 
 /// Work of the loads in the terms of the scheme: f_{n+1} . D.
@@ -180,9 +180,9 @@ std::optional<Failure> step_newmark(Simulation& sim) {
   Accounts& accounts = sim.accounts;
   StageClock clock(motion.state.steps);
   TiledFaces& tiled = sim.motion.tiled;
-  load_tiles(sim, Begins::at_step_end);
-  if (!tiled.ahead) motion.contacts.drop_states();
-  tiled.ahead = true;
+  fit_tiles(sim);
+  // A step begins at the end of the last one, whatever the faces were evaluated for since.
+  drop_trial(tiled.tiles);
   LoadsNow at_work;
   if (std::optional<Failure> failure = move_blocks(sim, at_work)) return failure;
   motion.on_contacts = sim.implicit.on_faces;
@@ -222,7 +222,7 @@ const Stepper newmark_stepper{.start = start_newmark,
                               .step = step_newmark,
                               .look = look_newmark,
                               .remaining_travel = remaining_travel_of_newmark,
-                              .search = search_faces,
+                              .search = search_in_tiles,
                               .begin_contacts = begin_faces,
                               .sum_contacts = sum_face_forces,
                               .deep_overlap = deep_overlap_of_faces,

@@ -226,9 +226,10 @@ void change_strength(Simulation& sim, double part) {
 void let_open(Simulation& sim) {
   if (!sim.relaxation.holds_together) return;
   sim.relaxation.holds_together = false;
-  FaceSet& faces = faces_to_change(sim);
   const NodalForces before = forces_now(sim);
-  unglue_faces(faces, sim.scene->blocks, sim.motion.pose);
+  change_faces(sim, [&](FaceSet& faces, FaceStates&) {
+    unglue_faces(faces, sim.scene->blocks, sim.motion.pose);
+  });
   reevaluate_faces(sim);
   note_jump(sim, before);
 }
@@ -325,12 +326,13 @@ void begin_gradually(Simulation& sim, const std::vector<double>& strength_factor
     const double least = time_of_displacements(sim);
     const bool weight = !sim.scene->model.initial_stress;
     if (!weight && least == 0.0) return set_strength_factors(sim, strength_factors);
-    FaceSet& faces = faces_to_change(sim);
+    const FaceSet& faces = sim.motion.contacts;
     if (faces.size() > 0) hold_joints(sim);
     // Supports that are displaced meanwhile would pull apart what holds together.
     relaxation.holds_together = weight && least == 0.0 && faces.size() > 0 && !faces.gluing;
     if (relaxation.holds_together) {
-      glue_faces(faces, false);
+      change_faces(sim,
+                   [](FaceSet& of, const FaceStates& states) { glue_faces(of, states, false); });
       reevaluate_faces(sim);
     }
     constexpr double periods = 1.0;  // on joints that hold

@@ -104,7 +104,7 @@ double restitution_of(const Model& model, const Reference& reference, const Join
   if (!made.ok()) return 0.0;
   Simulation& sim = made.value();
   start(sim, duration);
-  while (sim.motion.state.time < duration && !step_ahead(sim)) {
+  while (sim.motion.state.time < duration && !step(sim)) {
   }
   const std::size_t i = sim.scene->blocks.fixed[0] != 0 ? 1 : 0;
   return std::max(centroid(sim.motion.state.vx, sim.motion.state.vy, i).y / speed, 0.0);

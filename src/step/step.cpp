@@ -26,16 +26,9 @@ void start(Simulation& sim, double first_event) {
 }
 
 std::optional<Failure> step(Simulation& sim) {
-  std::optional<Failure> failure = step_ahead(sim);
-  update_face_rows(sim);
-  return failure;
-}
-
-std::optional<Failure> step_ahead(Simulation& sim) {
   std::optional<Failure> failure = sim.stepper->step(sim);
   while (failure && set_aside(sim, *failure)) failure = inspect(sim);
   if constexpr (invariants_are_checked) {
-    update_face_rows(sim);
     const std::string broken = failure ? std::string() : broken_invariant(sim);
     if (!broken.empty()) throw std::logic_error("invariant: " + broken);
   }
@@ -44,7 +37,6 @@ std::optional<Failure> step_ahead(Simulation& sim) {
 
 void observe(const Simulation& sim, Instant& at) {
   const Motion& motion = sim.motion;
-  at.contacts = motion.contacts;
   at.state = motion.state;
   at.forces = motion.forces;
   gather_forces(at.forces, sim.scene->blocks, motion.state, motion.pose, motion.on_contacts,

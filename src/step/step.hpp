@@ -18,10 +18,6 @@ void start(Simulation& sim, double first_event);
 /// whose trouble is its own is set aside (step/changes.hpp).
 std::optional<Failure> step(Simulation& sim);
 
-/// The same, except that the rows of the faces, Motion::contacts, may be behind afterwards, which
-/// saves time: whatever reads them calls update_face_rows() before (step/tile_step.hpp).
-std::optional<Failure> step_ahead(Simulation& sim);
-
 // Used by the methods of stepping:
 /// Updates time and counts after a step.
 void finish_step(Simulation& sim);

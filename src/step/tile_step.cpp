@@ -3,6 +3,7 @@
 #include <omp.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "contacts/face_bonds.hpp"
 #include "contacts/find_faces.hpp"
@@ -10,7 +11,6 @@
 #include "contacts/tile_loading.hpp"
 #include "contacts/tile_renewal.hpp"
 #include "contacts/tile_rows.hpp"
-#include "contacts/tile_trials.hpp"
 #include "step/contact_search.hpp"
 #include "step/face_switching.hpp"
 #include "step/simulation.hpp"
@@ -19,12 +19,12 @@ namespace edda {
 namespace {
 
 /// The faces in the step to the present positions.
-FacesInStep faces_in_step(Simulation& sim) {
+FacesInStep faces_in_step(Simulation& sim, double step) {
   Motion& motion = sim.motion;
   return {motion.contacts,
           sim.motion.tiled,
           face_scene(sim),
-          motion.state.step,
+          step,
           sim.control.last_displacement,
           {motion.on_contacts.x, motion.on_contacts.y, motion.on_contacts.modes}};
 }
@@ -37,10 +37,10 @@ class FacesInTiles : public FaceAccess {
         tiles_(sim.motion.tiled.tiles),
         blocks_(sim.scene->blocks),
         pushed_by_(sim.leapfrog.switching.pushed_by),
-        in_step_(faces_in_step(sim)) {}
+        in_step_(faces_in_step(sim, sim.motion.state.step)) {}
 
   bool switches(Id k) const override { return tiles_.remembers(lane_bits::switched, k); }
-  FaceFields<double> before(Id k) override {
+  FaceFields before(Id k) override {
     recall_work(faces_, tiles_, k);
     return remembered(tiles_, k);
   }
@@ -78,7 +78,7 @@ class FacesInTiles : public FaceAccess {
   /// With what is decided of them then.
   void evaluate_again(const std::vector<Id>& faces, const std::vector<SwitchingFace>& corrected) {
     in_step_.evaluate(faces, pushed_by_);
-    const StateAtN ahead = [&](Id k) -> const FaceFields<double>* {
+    const StateAtN ahead = [&](Id k) -> const FaceFields* {
       const auto known = std::find_if(corrected.begin(), corrected.end(),
                                       [k](const SwitchingFace& f) { return f.face == k; });
       return known == corrected.end() ? nullptr : &known->before;
@@ -96,10 +96,6 @@ class FacesInTiles : public FaceAccess {
 
 }  // namespace
 
-bool steps_in_tiles(const Simulation& sim) {
-  return sim.motion.tiled.use;
-}
-
 namespace {
 
 /// Blocks of a tile, at most. Threads that share a model have eight tiles each, or else tiles of
@@ -114,37 +110,51 @@ std::size_t blocks_of_tile(const Simulation& sim) {
 
 }  // namespace
 
-void load_tiles(Simulation& sim, Begins begins) {
+FaceSet& faces_of(Simulation& sim) {
+  return sim.motion.contacts;
+}
+
+FaceStates take_faces(Simulation& sim) {
+  Motion& motion = sim.motion;
+  recall_work(motion.contacts, motion.tiled.tiles);
+  return states_of(motion.contacts, motion.tiled.tiles, sim.scene->blocks, motion.pose);
+}
+
+void put_faces(Simulation& sim, const FaceStates& states) {
+  Motion& motion = sim.motion;
+  TiledFaces& own = motion.tiled;
+  own.threads = std::max(own.threads, omp_get_max_threads());
+  load_tiles(own, motion.contacts, states, sim.scene->blocks, motion.state, motion.pose,
+             sim.attached.ground.moves, blocks_of_tile(sim));
+}
+
+void fit_tiles(Simulation& sim) {
   TiledFaces& own = sim.motion.tiled;
   own.threads = std::max(own.threads, omp_get_max_threads());
-  const std::size_t of_tile = blocks_of_tile(sim);
-  if (own.loaded && own.blocks == of_tile) return;
-  FaceSet& faces = faces_to_change(sim);
-  if (begins == Begins::at_step_end) faces.now = faces.before;
-  load_tiles(own, faces, sim.scene->blocks, sim.motion.state, sim.motion.pose,
-             sim.attached.ground.moves, of_tile);
-  if (begins == Begins::at_step_end) keep_trial(own.tiles, faces);
+  if (own.blocks != blocks_of_tile(sim)) put_faces(sim, take_faces(sim));
 }
 
 void place_in_tiles(Simulation& sim) {
-  TiledFaces& own = sim.motion.tiled;
   Motion& motion = sim.motion;
-  FaceSet& c = motion.contacts;
-  const BlockSet& b = sim.scene->blocks;
-  if (c.gluing) glue_pressed(c, own.tiles, b, motion.pose.x1, motion.pose.y1);
-  next_step(c, own.tiles);
-  if (motion.laws.any_changes) update_joint_laws(c, own.tiles, b, motion.pose, motion.laws);
-  if (!own.ahead) c.drop_states();
-  own.ahead = true;
-  FacesInStep step = faces_in_step(sim);
+  begin_step(motion.contacts, motion.tiled.tiles, sim.scene->blocks, motion.pose, motion.laws);
+  FacesInStep step = faces_in_step(sim, motion.state.step);
   step.sweep();
   step.decide_and_evaluate(step.asking());
 }
 
+void evaluate_at_rest(Simulation& sim, double step) {
+  double& sleep_part = sim.motion.tiled.sleep_part;
+  const double slept = std::exchange(sleep_part, 0.0);
+  FacesInStep at_rest = faces_in_step(sim, step);
+  at_rest.sweep();
+  at_rest.decide_and_evaluate(at_rest.asking());
+  sleep_part = slept;
+}
+
 void switch_in_tiles(Simulation& sim, const StepTaken& taken) {
   TiledFaces& own = sim.motion.tiled;
-  const std::vector<Id> switching =
-      faces_in_step(sim).found(lane_bits::switching, &SweepResult::switching);
+  const std::vector<Id> switching = faces_in_step(sim, sim.motion.state.step)
+                                        .found(lane_bits::switching, &SweepResult::switching);
   if (switching.empty()) return;
   FacesInTiles access(sim);
   own.corrects = true;
@@ -167,44 +177,28 @@ std::vector<std::uint8_t> faces_that_carry(const FaceTiles& t) {
 }  // namespace
 
 void search_in_tiles(Simulation& sim, const Reach& reach) {
-  TiledFaces& own = sim.motion.tiled;
   Motion& motion = sim.motion;
+  TiledFaces& own = motion.tiled;
+  FaceSet& faces = motion.contacts;
   const BlockSet& b = sim.scene->blocks;
-  recall_work(motion.contacts, own.tiles);
-  motion.contacts.dashpots = dashpots_work(own.tiles);
+  recall_work(faces, own.tiles);
+  faces.dashpots = dashpots_work(own.tiles);
   const std::vector<Id> old_row =
-      renew_faces(motion.contacts, b, motion.state, motion.pose, motion.laws, reach,
-                  sim.control.near_edges, faces_that_carry(own.tiles), FaceStates::elsewhere);
-  set_face_dashpots(motion.contacts, motion.laws, motion.damping.contact);
-  renew_tiles(own.tiles, motion.contacts, b, motion.pose, old_row);
-  own.ahead = true;
+      find_faces(faces, b, motion.state, motion.pose, motion.laws, reach, sim.control.near_edges,
+                 faces_that_carry(own.tiles));
+  set_face_dashpots(faces, motion.laws, motion.damping.contact);
+  if (own.tiles.tiles.empty()) return put_faces(sim, FaceStates(faces.size()));
+  renew_tiles(own.tiles, faces, b, motion.pose, old_row);
   own.pushed = 0.0;
   constexpr double worth = 0.15;  // of the faces, evaluated twice because neighbours have changed
-  if (part_in_two_tiles(own.tiles) > own.in_two_tiles + worth) faces_to_change(sim);
-}
-
-void update_face_rows(Simulation& sim) {
-  TiledFaces& own = sim.motion.tiled;
-  if (!own.ahead) return;
-  unload_faces(sim.motion.contacts, own.tiles, sim.scene->blocks, sim.motion.pose);
-  own.ahead = false;
+  if (part_in_two_tiles(own.tiles) > own.in_two_tiles + worth) put_faces(sim, take_faces(sim));
 }
 
 void lose_faces(Simulation& sim) {
-  TiledFaces& own = sim.motion.tiled;
-  FaceSet& c = sim.motion.contacts;
-  own.tiles = FaceTiles();
+  FaceTiles& tiles = sim.motion.tiled.tiles;
+  tiles = FaceTiles();
   sim.control.near_edges = NearEdges();
-  const bool fits =
-      c.now.rows() == c.size() && c.before.rows() == c.size() && c.force.size() == c.force_size();
-  if (own.ahead || !fits) c.clear_states();
-  own.ahead = own.loaded = false;
-}
-
-FaceSet& faces_to_change(Simulation& sim) {
-  update_face_rows(sim);
-  sim.motion.tiled.loaded = false;
-  return sim.motion.contacts;
+  tiles.place.assign(sim.motion.contacts.size(), {no_id, no_id});
 }
 
 }  // namespace edda

@@ -1,43 +1,48 @@
-// The faces of a step, in tiles (contacts/face_tiles.hpp): loaded when a step needs
-// them, left when something else changes the faces. While they are in use Motion::contacts has
-// no states of the faces: only what is decided of them is that of the step.
+// The faces of a simulation, which are kept in tiles (contacts/face_tiles.hpp): their steps, and
+// what else changes them.
 #pragma once
 
+#include "contacts/face_states.hpp"
 #include "contacts/near_edges.hpp"
 
 namespace edda {
 
+struct FaceSet;
 struct Simulation;
 struct StepTaken;
 
-/// Whether the next step keeps the faces in tiles: where all that it reads of them is in there.
-bool steps_in_tiles(const Simulation& sim);
+/// The states of the faces, to be changed and put back. Brings their accumulated work up to date.
+FaceStates take_faces(Simulation& sim);
+FaceSet& faces_of(Simulation& sim);
+/// Takes the faces, which have these states at pose.x and pose.x1, into tiles.
+void put_faces(Simulation& sim, const FaceStates& states);
 
-/// Where a step begins: between two positions, as the leapfrog's, or at the end of the last step,
-/// the state at which is then all that counts (begin_from_step_end()).
-enum class Begins { between_steps, at_step_end };
+/// Changes the faces between two steps: change(FaceSet&, FaceStates&).
+template <class Change>
+void change_faces(Simulation& sim, Change change) {
+  FaceStates states = take_faces(sim);
+  change(faces_of(sim), states);
+  put_faces(sim, states);
+}
 
-/// Takes the faces at n into tiles, unless they are; to be called before the blocks move.
-void load_tiles(Simulation& sim, Begins begins = Begins::between_steps);
+/// Before a step: divides the blocks again where other threads share them.
+void fit_tiles(Simulation& sim);
 
 /// Evaluates the faces at n + 1: memory, forces on the blocks; activity and bonds where they
 /// change.
 void place_in_tiles(Simulation& sim);
 
-/// Contact activation (face_switching.hpp) of the faces in tiles.
+/// Contact activation (face_switching.hpp) of the faces.
 void switch_in_tiles(Simulation& sim, const StepTaken& taken);
 
-/// Makes a new list of the faces, which remain in tiles.
-void search_in_tiles(Simulation& sim, const Reach& reach);
+/// Evaluates the faces at n again, from their states at n - 1. step: between, s.
+void evaluate_at_rest(Simulation& sim, double step);
 
-/// Brings the rows of the faces up to date, with their states.
-void update_face_rows(Simulation& sim);
+/// Makes a new list of the faces.
+void search_in_tiles(Simulation& sim, const Reach& reach);
 
 /// Where memory has run out: tiles of a list that was not completed must not be read. The faces
 /// carry nothing then.
 void lose_faces(Simulation& sim);
-
-/// The faces, to be changed: up to date, and no longer in tiles.
-FaceSet& faces_to_change(Simulation& sim);
 
 }  // namespace edda

@@ -25,7 +25,6 @@ void change_velocities(Simulation& sim, const Nodes& vx, const Nodes& vy, const 
   const BlockSet& blocks = sim.scene->blocks;
   State& state = sim.motion.state;
   Pose& pose = sim.motion.pose;
-  FaceSet& contacts = faces_to_change(sim);
   const StepControl& control = sim.control;
   const double energy = total_energy(sim);
   const bool leaps = sim.stepper->velocity_lag > 0.0;
@@ -43,8 +42,10 @@ void change_velocities(Simulation& sim, const Nodes& vx, const Nodes& vy, const 
   if (rate != nullptr) state.bend_rate = *rate;
   if (leaps) {
     place_a_step_back(blocks, state, state.vx, state.vy, control.step_before, pose);
-    correct_last_step(contacts, blocks, pose, old_x1, old_y1);
-    evaluate_faces(contacts, face_scene(sim), control.step_before);
+    change_faces(sim, [&](const FaceSet& faces, FaceStates& states) {
+      correct_last_step(faces, states, blocks, pose, old_x1, old_y1);
+    });
+    evaluate_at_rest(sim, control.step_before);
     sum_face_forces(sim);
     sim.attached.bolts.work_pending += 0.5 * control.step_before * (bolt_power(sim) - bolts_before);
   }
@@ -54,7 +55,7 @@ void change_velocities(Simulation& sim, const Nodes& vx, const Nodes& vy, const 
 void lose_velocity(Simulation& sim, Vec2 v) {
   Ground& ground = sim.attached.ground;
   if (v == Vec2{}) return;
-  faces_to_change(sim);
+  const FaceStates faces = take_faces(sim);
   State& state = sim.motion.state;
   Pose& pose = sim.motion.pose;
   const double energy = total_energy(sim);
@@ -73,6 +74,7 @@ void lose_velocity(Simulation& sim, Vec2 v) {
   }
   ground.shift_1 += last;
   ground.velocity -= v;
+  put_faces(sim, faces);
   sim.accounts.external_work += total_energy(sim) - energy;
 }
 

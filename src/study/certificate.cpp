@@ -3,11 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "contacts/find_faces.hpp"
 #include "judge/rest.hpp"
 #include "limit/joint_strength.hpp"
+#include "step/contact_search.hpp"
 #include "step/faces_now.hpp"
-#include "step/tile_step.hpp"
 
 namespace edda {
 namespace {
@@ -37,10 +36,8 @@ void lengthen(RigidBlocks& rigid, const Simulation& now) {
 /// The present state, its list of faces as wide as blocks may move.
 Simulation with_faces_within(const Simulation& sim, double distance) {
   Simulation now = sim;
-  update_face_rows(now);
-  FaceSet& faces = now.motion.contacts;
-  find_faces(faces, now.scene->blocks, now.motion.state, now.motion.pose, now.motion.laws,
-             {std::max(distance, faces.reach), faces.reach_behind});
+  const FaceSet& faces = now.motion.contacts;
+  search(now, {std::max(distance, faces.reach), faces.reach_behind});
   return now;
 }
 

@@ -9,7 +9,6 @@
 #include "run/ramp.hpp"
 #include "step/changes.hpp"
 #include "step/step.hpp"
-#include "step/tile_step.hpp"
 #include "study/certificate.hpp"
 
 namespace edda {
@@ -55,7 +54,6 @@ class Run {
   void end(TrialEnd how, std::string reason) {
     if (over_) return;
     over_ = true;
-    update_face_rows(sim_);
     const Furthest moved = whole_.furthest(sim_);
     trial_.displacement = moved.value;
     trial_.block = holding_.block() == no_id ? moved.block : holding_.block();
@@ -87,7 +85,7 @@ class Run {
     }
     while (!over_ && sim_.motion.state.time < time) {
       if (stops_()) return end(TrialEnd::stopped, "stopped");
-      if (const auto failure = step_ahead(sim_)) {
+      if (const auto failure = step(sim_)) {
         return end(TrialEnd::fails, "diverged: " + failure->message);
       }
       end_by(holding_.look(sim_));
@@ -96,7 +94,6 @@ class Run {
         next_proof_ += next_proof_ - followed_;
       }
       if (!over_ && !early_ && holding_.part() > moved_little) {
-        update_face_rows(sim_);
         early_ = sim_;
       }
     }
@@ -201,7 +198,6 @@ class Run {
   bool is_calm() {
     constexpr double small = 0.05;  // of what is little
     constexpr int looks = 20;
-    update_face_rows(sim_);
     const RelativeMotion window(sim_);
     bool calm = true;
     for (int look = 0; look < looks && !over_; ++look) {

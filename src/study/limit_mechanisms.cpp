@@ -4,6 +4,9 @@
 #include <cmath>
 #include <utility>
 
+#include "step/simulation.hpp"
+#include "step/tile_step.hpp"
+
 namespace edda {
 namespace {
 
@@ -38,9 +41,11 @@ std::optional<LimitMotion> limit_motion(const Simulation& drawn, const RigidBloc
   if (state.motion.empty()) return {};
   Simulation moved = moved_by(drawn, rigid, state.motion, far * rigid.size);
   Simulation before = drawn;  // whose joints carry what they carry at the limit
-  FaceSet& faces = before.motion.contacts;
-  for (const RigidJoint& joint : rigid.joints) faces.now.energy[joint.face] = 1.0;
-  Mechanism mechanism = mechanism_of(before, moved, moving);
+  change_faces(before, [&](const FaceSet&, FaceStates& faces) {
+    for (const RigidJoint& joint : rigid.joints) faces.now[joint.face].energy = 1.0;
+  });
+  // A rigid joint opens as it slides, by its friction angle.
+  Mechanism mechanism = mechanism_of(before, moved, moving, drawn);
   return LimitMotion{std::move(mechanism), std::move(moved)};
 }
 

@@ -208,6 +208,11 @@ std::string brittle_part(const Mechanism& m) {
 }  // namespace
 
 Mechanism mechanism_of(const Simulation& before, const Simulation& after, double moving) {
+  return mechanism_of(before, after, moving, after);
+}
+
+Mechanism mechanism_of(const Simulation& before, const Simulation& after, double moving,
+                       const Simulation& apart) {
   Mechanism m;
   double largest = 0.0, weight = 0.0;
   std::vector<double> rotation(before.scene->blocks.size(), 0.0);
@@ -219,7 +224,7 @@ Mechanism mechanism_of(const Simulation& before, const Simulation& after, double
   }
   std::erase_if(m.blocks, [&](const MovingBlock& b) { return b.largest < moving * largest; });
   m.joints = joints_of(before, after, rotation, moving * largest);
-  const std::vector<std::uint8_t> near = next_to_something(after, moving * largest);
+  const std::vector<std::uint8_t> near = next_to_something(apart, moving * largest);
   std::vector<std::uint8_t> moves(before.scene->blocks.size(), 0);
   for (const MovingBlock& b : m.blocks) moves[b.id] = 1;
   const std::vector<std::uint8_t> hinged =

@@ -82,6 +82,9 @@ struct Mechanism {
 /// slides. A block that is no longer within a tenth of the largest displacement of another block
 /// falls.
 Mechanism mechanism_of(const Simulation& before, const Simulation& after, double moving = 0.1);
+/// The same, where the state `apart` says which blocks are no longer within that distance.
+Mechanism mechanism_of(const Simulation& before, const Simulation& after, double moving,
+                       const Simulation& apart);
 
 /// Rows of the BlockSet that move, ascending, and the area of them all, m2.
 std::vector<Id> blocks_of(const Mechanism& mechanism);

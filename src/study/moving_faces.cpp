@@ -5,7 +5,7 @@
 #include <map>
 #include <utility>
 
-#include "contacts/evaluate_faces.hpp"
+#include "contacts/evaluate_face.hpp"
 #include "step/faces_now.hpp"
 
 namespace edda {
@@ -64,7 +64,7 @@ void collect_joints(SeenJoints& joints, const Simulation& before, const Simulati
   for (std::size_t k = 0; k < f.size(); ++k) {
     const auto [i, j] = blocks_of_face(b, f, k);
     const FaceRow row = face_row(before, k);
-    const FaceFields<double>& m = row.state;
+    const FaceFields& m = row.state;
     const bool along = f.acts[k] > 0.0 && m.cohesive > 0.0 && closure_of(row) > -least;
     if (!along && !(normal_force(row) > counts * largest[{i, j}])) continue;
     const double length = std::min(b.edge_length[f.edge[k]], b.edge_length[f.facing[k]]);

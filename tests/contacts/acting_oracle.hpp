@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "blocks/pose.hpp"
+#include "contacts/face_states.hpp"
 #include "contacts/oracle.hpp"
 
 namespace edda {
@@ -134,7 +135,8 @@ class ActingOracle {
   explicit ActingOracle(double rounding) : rounding_(rounding) {}
 
   /// To be called after the faces were evaluated at a new step.
-  ActingFaults look(const FaceSet& c, const BlockSet& b, const Pose& pose) {
+  ActingFaults look(const FaceSet& c, const FaceStates& states, const BlockSet& b,
+                    const Pose& pose) {
     ActingFaults faults;
     std::map<EdgePair, Decision> now;
     for (std::size_t k = 0; k < c.size(); ++k) {
@@ -148,8 +150,9 @@ class ActingOracle {
         faults.inactive += decided == Decision::inactive ? 1 : 0;
         faults.apart += (c.acts[k] > 0.0) == (decided == Decision::acts) ? 0 : 1;
       }
-      if (c.now.energy[k] > 0.0 && c.before.energy[k] == 0.0) look_beside(s, c, b, pose, k, faults);
-      if (c.now.energy[k] > 0.0 && s.closure() > rounding_) {
+      const bool presses = states.now[k].energy > 0.0;
+      if (presses && states.before[k].energy == 0.0) look_beside(s, c, b, pose, k, faults);
+      if (presses && s.closure() > rounding_) {
         ++faults.pressing;
         faults.behind += presses_from_behind(s, b, pose, e, f) ? 1 : 0;
       }

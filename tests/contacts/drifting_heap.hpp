@@ -7,8 +7,7 @@
 
 #include "blocks/build_blocks.hpp"
 #include "contacts/acting_oracle.hpp"
-#include "contacts/evaluate_faces.hpp"
-#include "contacts/find_faces.hpp"
+#include "contacts/faces_alone.hpp"
 #include "contacts/random_shapes.hpp"
 
 namespace edda {
@@ -71,7 +70,8 @@ struct DriftingHeap {
   State state;
   Pose pose;
   LawTable laws;
-  FaceSet contacts;
+  FacesAlone alone;
+  NearEdges near;
 
   DriftingHeap(std::mt19937& rng, int n, double decades)
       : DriftingHeap(random_polygons(rng, n, decades)) {}
@@ -113,8 +113,9 @@ struct DriftingHeap {
   }
 
   FaceScene scene() const { return {blocks, masses, pose, laws}; }
+  void find(double reach) { alone.find(blocks, state, pose, laws, {reach}, near); }
 
-  ListFaults check() const { return check_list(contacts, blocks, state.alive, pose.x, pose.y); }
+  ListFaults check() const { return check_list(alone.faces, blocks, state.alive, pose.x, pose.y); }
 };
 
 /// One heap of odd shapes, which overlap each other, through `lists` lists and `moves`
@@ -127,13 +128,13 @@ inline ActingFaults acting_heap(unsigned seed, int blocks, int lists, int moves)
   ActingFaults sum;
   for (int list = 0; list < lists; ++list) {
     const double reach = 0.3 * std::pow(10.0, -3.0 * u(rng));
-    FaceSet& c = heap.contacts;
-    find_faces(c, heap.blocks, heap.state, heap.pose, heap.laws, reach);
+    FaceSet& c = heap.alone.faces;
+    heap.find(reach);
     for (int move = 0; move < moves; ++move) {
-      next_step(c);
+      heap.alone.next_step();
       heap.move_at_random(rng, 0.5 * reach / moves);
-      evaluate_faces(c, heap.scene(), 1.0);
-      sum.add(oracle.look(c, heap.blocks, heap.pose));
+      heap.alone.evaluate(heap.scene(), 1.0);
+      sum.add(oracle.look(c, heap.alone.states, heap.blocks, heap.pose));
     }
   }
   return sum;
@@ -154,16 +155,17 @@ inline ListFaults drifting_heap(unsigned seed, int blocks, int lists, int moves)
   for (int list = 0; list < lists; ++list) {
     const double reach = 0.3 * std::pow(10.0, -3.0 * u(rng));
     std::map<EdgePair, double> carry;
-    FaceSet& c = heap.contacts;
+    FaceSet& c = heap.alone.faces;
+    std::vector<FaceFields>& now = heap.alone.states.now;
     for (std::size_t k = 0; k < c.size(); ++k) {
-      if (c.now.energy[k] > 0.0) carry[{c.edge[k], c.facing[k]}] = c.now.energy[k];
+      if (now[k].energy > 0.0) carry[{c.edge[k], c.facing[k]}] = now[k].energy;
     }
-    find_faces(c, heap.blocks, heap.state, heap.pose, heap.laws, reach);
+    heap.find(reach);
     for (std::size_t k = 0; k < c.size(); ++k) {
       const auto did = carry.find({c.edge[k], c.facing[k]});
       const double had = did != carry.end() ? did->second : 0.0;
-      sum.missed += c.now.energy[k] == had ? 0 : 1;
-      if (u(rng) < 0.1) c.now.energy[k] = 1.0 + u(rng);
+      sum.missed += now[k].energy == had ? 0 : 1;
+      if (u(rng) < 0.1) now[k].energy = 1.0 + u(rng);
     }
     add(heap.check());
     for (int move = 0; move < moves; ++move) {

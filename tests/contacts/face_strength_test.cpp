@@ -29,7 +29,7 @@ constexpr double cohesion = 1e6, tension = 2e5;
 MovedBlocks bonded_square(const JointLaw& joint) {
   MovedBlocks m = square_on_base(joint, thickness);
   m.start();
-  bond_faces(m.faces, m.blocks, m.pose, m.laws);
+  m.bond();
   m.evaluate();
   return m;
 }
@@ -52,7 +52,7 @@ MovedBlocks bonded_as_drawn(double gap) {
   MovedBlocks m = square_on_base(rough_joint(30.0, cohesion, tension), thickness);
   m.start();
   m.put(1, {{0.0, gap}});
-  bond_faces(m.faces, m.blocks, m.pose, m.laws);
+  m.bond();
   m.evaluate();
   return m;
 }
@@ -64,8 +64,8 @@ TEST(FaceBond, FitsWhatIsDrawnNearly) {
     MovedBlocks m = bonded_as_drawn(gap);
     const std::size_t k = bonded_face(m);
     ASSERT_LT(k, m.faces.size()) << gap;
-    EXPECT_NEAR(m.faces.now.closure_a[k], 0.0, 1e-12) << gap;
-    EXPECT_NEAR(m.faces.now.closure_b[k], 0.0, 1e-12) << gap;
+    EXPECT_NEAR(m.now(k).closure_a, 0.0, 1e-12) << gap;
+    EXPECT_NEAR(m.now(k).closure_b, 0.0, 1e-12) << gap;
     EXPECT_NEAR(norm(m.force_on(1)), 0.0, 1e-12 * normal_k) << gap;
     m.go(1, {{0.0, gap - 1e-5}});
     EXPECT_NEAR(m.force_on(1).y, 1e-5 * normal_k, 1e-6 * normal_k) << gap;
@@ -127,7 +127,7 @@ TEST(FaceBond, StoresLikeASpringWhereItChangesToTension) {
   m.go(1, {{0.0, -d}});
   const double start = m.balance() + m.work, whole = normal_k * d * d;
   for (const double y : {-0.5, 0.5, 1.5, -0.5, -1.5, 0.0, 1.0, 0.0, -1.0}) {
-    const double before = -m.faces.now.closure_a[bonded_face(m)];
+    const double before = -m.now(bonded_face(m)).closure_a;
     m.go(1, {{0.0, y * d}});
     EXPECT_NEAR(m.stored(), 0.5 * normal_k * y * d * before, 1e-6 * whole) << y;
     EXPECT_NEAR(m.balance() + m.work, start, 1e-6 * whole) << y;
@@ -173,14 +173,14 @@ TEST(FaceBond, ShearsAtItsCohesionAndFriction) {
 
 TEST(Glue, ReleasesWhatItCarried) {
   MovedBlocks m = pressed_square(rough_joint(30.0), 1e-6);
-  glue_faces(m.faces);
+  m.change([](FaceSet& faces, const FaceStates& states) { glue_faces(faces, states); });
   const double apart = 1e-4, stored = 0.5 * 2e9 * apart * apart;
   for (int n = 0; n <= 200; ++n) m.go(1, {{0.0, -1e-6 + 0.005 * n * (apart + 1e-6)}});
   m.go(1, {{0.0, apart}});
   EXPECT_NEAR(-m.force_on(1).y, 2e9 * apart, 1e-3 * 2e9 * apart);
-  unglue_faces(m.faces, m.blocks, m.pose);
+  m.change([&](FaceSet& faces, FaceStates&) { unglue_faces(faces, m.blocks, m.pose); });
   EXPECT_NEAR(m.fracture(), stored, 1e-2 * stored);
-  evaluate_faces(m.faces, m.scene(), m.step);
+  m.evaluate_from(m.step);
   EXPECT_EQ(m.force_on(1).y, 0.0);
 }
 
@@ -190,18 +190,12 @@ TEST(Glue, ACornerOnAnEdgeKeepsItsFriction) {
   const double turned = 0.05, depth = 1e-5,
                down = 0.5 * (1.0 - std::cos(turned) - std::sin(turned)) + depth;
   m.put_still(1, {{0.0, -down}, turned});
-  glue_faces(m.faces);
-  for (int n = 1; n <= 100; ++n) {
-    m.go(1, {{1e-5 * n, -down}, turned});
-    glue_pressed(m.faces);
-  }
+  m.change([](FaceSet& faces, const FaceStates& states) { glue_faces(faces, states); });
+  for (int n = 1; n <= 100; ++n) m.go(1, {{1e-5 * n, -down}, turned});
   const Vec2 force = m.force_on(1);
   EXPECT_GT(force.y, 1e3);
   EXPECT_NEAR(-force.x, tangent(30.0) * force.y, 1e-3 * force.y);
-  for (int n = 1; n <= 3; ++n) {
-    m.go(1, {{1e-3, -depth}});
-    glue_pressed(m.faces);
-  }
+  for (int n = 1; n <= 3; ++n) m.go(1, {{1e-3, -depth}});
   for (int n = 1; n <= 100; ++n) m.go(1, {{1e-3 + 1e-5 * n, -depth}});
   EXPECT_GT(-m.force_on(1).x, 10.0 * m.force_on(1).y);
 }
@@ -321,7 +315,9 @@ TEST(BartonBandis, FrictionAndDilationInForce) {
     m.laws = divided_laws(m.model, {factor});
     const double depth = 1e-4;
     m.put_still(1, {{0.0, -depth}});
-    put_strengths_in_force(m.faces, m.laws);
+    m.change([&](FaceSet& faces, const FaceStates& states) {
+      put_strengths_in_force(faces, states, m.laws);
+    });
     const std::size_t k = m.main_face();
     const double angle = 28.0 + 8.0 * std::log10(50e6 / (2e9 * depth));
     EXPECT_NEAR(m.faces.friction[k], tangent(angle) / factor, 1e-6);

@@ -34,12 +34,12 @@ bool bar_leans(int bricks, bool wedge) {
     set.blocks.push_back(polygon_of({{x, 0}, {x + 1, 0}, {x + 1, 0.5}, {x, 0.5}}, false));
   }
   DriftingHeap heap(set);
-  FaceSet& c = heap.contacts;
-  find_faces(c, heap.blocks, heap.state, heap.pose, heap.laws, 0.05);
-  evaluate_faces(c, heap.scene(), 1e-3);
+  heap.find(0.05);
+  heap.alone.evaluate(heap.scene(), 1e-3);
+  const FaceSet& c = heap.alone.faces;
   for (std::size_t k = 0; k < c.size(); ++k) {
     const Id i = heap.blocks.vertex_block[c.edge[k]], j = heap.blocks.vertex_block[c.facing[k]];
-    if (std::min(i, j) == 0 && std::max(i, j) == 1 && c.now.energy[k] > 0.0)
+    if (std::min(i, j) == 0 && std::max(i, j) == 1 && heap.alone.states.now[k].energy > 0.0)
       return c.leans[k] > 0.0;
   }
   ADD_FAILURE() << "the bar does not touch the floor";

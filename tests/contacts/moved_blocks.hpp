@@ -3,12 +3,16 @@
 
 #include "attachments/drawn_blocks.hpp"
 #include "blocks/pose.hpp"
-#include "contacts/evaluate_faces.hpp"
 #include "contacts/face_bonds.hpp"
 #include "contacts/face_energy.hpp"
 #include "contacts/face_reading.hpp"
 #include "contacts/find_faces.hpp"
 #include "contacts/joint_laws.hpp"
+#include "contacts/tile_decisions.hpp"
+#include "contacts/tile_renewal.hpp"
+#include "contacts/tile_trials.hpp"
+#include "contacts/tiled_faces.hpp"
+#include "forces/nodal_forces.hpp"
 
 namespace edda::test {
 
@@ -23,7 +27,9 @@ struct MovedBlocks : DrawnBlocks {
   State state;
   Pose pose;
   LawTable laws;
-  FaceSet faces;
+  FaceSet faces;     ///< after each step with the work accumulated until the step before
+  TiledFaces tiled;  ///< their states; none sleeps
+  NearEdges near;
   double step = 1e-4;
   double work = 0.0;  ///< J, done on the blocks by the forces of faces, in the leapfrog's terms
 
@@ -36,8 +42,33 @@ struct MovedBlocks : DrawnBlocks {
     state = initial_state(blocks, set);
     pose = {blocks.vertex_x, blocks.vertex_y, blocks.vertex_x,
             blocks.vertex_y, blocks.vertex_x, blocks.vertex_y};
-    find_faces(faces, blocks, state, pose, laws, reach);
+    tiled.sleep_part = 0.0;
+    find_faces(faces, blocks, state, pose, laws, {reach}, near, {});
     set_face_dashpots(faces, laws, 0.0);
+    load(FaceStates(faces.size()));
+  }
+  void load(const FaceStates& states) {
+    load_tiles(tiled, faces, states, blocks, state, pose, true, blocks.size());
+  }
+  FaceStates states() const { return states_of(faces, tiled.tiles, blocks, pose); }
+  /// Changes the faces between two steps: change(faces, states).
+  template <class Change>
+  void change(Change change_faces) {
+    FaceStates now = states();
+    change_faces(faces, now);
+    load(now);
+  }
+  void bond() {
+    change([&](FaceSet& of, FaceStates& now) { bond_faces(of, now, blocks, pose, laws); });
+  }
+  /// A new list, with the reach.
+  void search(double reach) {
+    std::vector<std::uint8_t> carry;
+    for (std::size_t k = 0; k < faces.size(); ++k)
+      carry.push_back(tiled.tiles.remembers(lane_bits::stored, k) ? 1 : 0);
+    recall_work(faces, tiled.tiles);
+    const std::vector<Id> old = find_faces(faces, blocks, state, pose, laws, {reach}, near, carry);
+    renew_tiles(tiled.tiles, faces, blocks, pose, old);
   }
   /// Places block i, now and at the steps before.
   void put(std::size_t i, const Place& place) {
@@ -46,9 +77,18 @@ struct MovedBlocks : DrawnBlocks {
     pose.y1 = pose.y2 = pose.y;
   }
   FaceScene scene() const { return {blocks, masses, pose, laws}; }
+  /// Evaluates the faces, which have the memory of the step before.
+  void evaluate_from(double since) {
+    NodalForces on = no_forces(blocks);
+    FacesInStep here(faces, tiled, scene(), since, 0.0, {on.x, on.y, on.modes});
+    here.sweep();
+    here.decide_and_evaluate(here.asking());
+    recall_work(faces, tiled.tiles);
+  }
+  /// The same at rest: their memory of this step is also that of the one before.
   void evaluate() {
-    evaluate_faces(faces, scene(), step);
-    begin_from_step_end(faces);
+    evaluate_from(step);
+    end_at_rest(faces, tiled.tiles, blocks, pose);
   }
   /// Places block i as put() does, and evaluates the faces there.
   void put_still(std::size_t i, const Place& place) {
@@ -57,32 +97,46 @@ struct MovedBlocks : DrawnBlocks {
   }
   /// One step, at the end of which block i has this position.
   void go(std::size_t i, const Place& place) {
+    std::vector<CornerForces> force;
+    for (std::size_t k = 0; k < faces.size(); ++k) force.push_back(row(k).force);
     pose.x2 = pose.x1;
     pose.y2 = pose.y1;
     pose.x1 = pose.x;
     pose.y1 = pose.y;
     place_in(i, place);
     for (std::size_t k = 0; k < faces.size(); ++k) {
-      work += 0.5 * work_of(corner_forces(faces, k), face_points(faces, pose.x, pose.y, k),
+      work += 0.5 * work_of(force[k], face_points(faces, pose.x, pose.y, k),
                             face_points(faces, pose.x2, pose.y2, k));
     }
-    next_step(faces);
-    if (laws.any_changes) update_joint_laws(faces, blocks, pose, laws);
-    evaluate_faces(faces, scene(), step);
+    begin_step(faces, tiled.tiles, blocks, pose, laws);
+    evaluate_from(step);
   }
+  /// Face k.
+  FaceRow row(std::size_t k) const { return face_row(faces, tiled.tiles, blocks, pose, k); }
+  FaceFields now(std::size_t k) const { return row(k).state; }
+  FaceFields before(std::size_t k) const { return remembered(tiled.tiles, k); }
   /// Energy that faces store, J.
   double stored() const {
     double sum = 0.0;
-    for (std::size_t k = 0; k < faces.size(); ++k) sum += face_energy(faces, blocks, pose, k);
+    for (std::size_t k = 0; k < faces.size(); ++k) {
+      const FaceFields m = before(k);
+      const SpringsOfFace springs{m.spring, {m.slip_a, m.slip_b}, now(k).energy > 0.0};
+      sum +=
+          face_energy(faces, blocks, pose, springs, face_at(faces, blocks, pose.x, pose.y, k), k);
+    }
     return sum;
   }
-  static double sum(const ChunkColumn& column) {
+  static double sum(const RowColumn& column) {
     double all = 0.0;
     for (const double value : column.values()) all += value;
     return all;
   }
   double friction() const { return sum(faces.friction_work); }
-  double damping() const { return sum(faces.damping_work) + sum(faces.now.damping_due); }
+  double damping() const {
+    double all = sum(faces.damping_work);
+    for (std::size_t k = 0; k < faces.size(); ++k) all += now(k).damping_due;
+    return all;
+  }
   double fracture() const { return sum(faces.fracture_work); }
   double transfer() const { return sum(faces.transfer); }
   /// Energy that faces store and have dissipated, J.
@@ -91,15 +145,18 @@ struct MovedBlocks : DrawnBlocks {
   Vec2 force_on(std::size_t i) const {
     Vec2 force;
     for (std::size_t k = 0; k < faces.size(); ++k) {
-      if (block_of_facing(blocks, faces, k) == i) force += force_on_facing(faces, k);
-      if (block_of_edge(blocks, faces, k) == i) force -= force_on_facing(faces, k);
+      if (block_of_facing(blocks, faces, k) == i) force += force_on_facing(row(k));
+      if (block_of_edge(blocks, faces, k) == i) force -= force_on_facing(row(k));
     }
     return force;
   }
   /// The face that carries most.
   std::size_t main_face() const {
-    const auto e = faces.now.energy.values();
-    return static_cast<std::size_t>(std::max_element(e.begin(), e.end()) - e.begin());
+    std::size_t most = 0;
+    for (std::size_t k = 0; k < faces.size(); ++k) {
+      if (now(k).energy > now(most).energy) most = k;
+    }
+    return most;
   }
 
  private:

@@ -35,10 +35,10 @@ TEST(MovingFace, IsAsStiffAsItsJoint) {
   EXPECT_EQ(m.faces.shear_stiffness[k], 0.4 * 3e9);  // none is given
   // Moment k L^3 tilt/12 of the pressure about the middle.
   const auto moment = [](const MovedBlocks& of, std::size_t face) {
-    return 0.5 * std::abs(of.faces.now.normal_a[face] - of.faces.now.normal_b[face]);
+    return 0.5 * std::abs(of.now(face).normal_a - of.now(face).normal_b);
   };
   EXPECT_NEAR(moment(m, k), 3e9 * tilt / 12.0, 1e-3 * 3e9 * tilt / 12.0);
-  EXPECT_NEAR(norm(middle_of(m.faces, m.pose, k) - Vec2{0.5, 0.0}), 0.0, 1e-3);
+  EXPECT_NEAR(norm(middle_of(m.row(k), m.pose) - Vec2{0.5, 0.0}), 0.0, 1e-3);
   // A penalty is a spring at either end, k L^3/4; where no corner leans the exact integral holds
   // for it, too.
   const std::size_t q = penalty.main_face();
@@ -197,7 +197,7 @@ void sink_past_a_corner(double bottom, double top, Vec2 corner) {
   const auto& f = m.faces;
   for (std::size_t k = 0; k < f.size(); ++k) {
     if (f.edge[k] != side_of_base || f.facing[k] != side_of_block) continue;
-    EXPECT_GT(normal_force(f, k), 0.9 * 2e9 * length * mean_closure) << bottom << " " << top;
+    EXPECT_GT(normal_force(m.row(k)), 0.9 * 2e9 * length * mean_closure) << bottom << " " << top;
   }
   EXPECT_LT(m.force_on(1).x, -0.9 * 2e9 * length * mean_closure) << bottom << " " << top;
   EXPECT_NEAR(m.work + m.balance(), 0.0, 0.01 * m.stored()) << bottom << " " << top;
@@ -216,10 +216,10 @@ TEST(MovingFace, StaysInTheListAsLongAsItCarries) {
   MovedBlocks m = pressed_square(rough_joint(30.0), depth);
   m.go(1, {{0.0, -depth}});
   const double force = m.force_on(1).y;
-  find_faces(m.faces, m.blocks, m.state, m.pose, m.laws, 0.1 * depth);
+  m.search(0.1 * depth);
   EXPECT_EQ(m.force_on(1).y, force);
   m.go(1, {{0.0, 0.5}});
-  find_faces(m.faces, m.blocks, m.state, m.pose, m.laws, 0.1 * depth);
+  m.search(0.1 * depth);
   EXPECT_EQ(m.faces.size(), 0u);
 }
 
@@ -237,7 +237,7 @@ TEST(MovingFace, DashpotsMoveTheMassOfTheirOwnEnd) {
   const double d = 1e-7;
   m.go(1, {{0.0, -depth - d}});
   const std::size_t k = m.main_face();
-  const double spring = 0.5 * m.faces.stiffness[k] * m.faces.now.length[k];
+  const double spring = 0.5 * m.faces.stiffness[k] * m.now(k).length;
   const auto dashpot = [&](double x) {
     const NodeWeights w = weights_at(m.blocks, 1, Vec2{x, 0.0} - m.blocks.origin);
     double per_mass = 0.0;
@@ -248,14 +248,14 @@ TEST(MovingFace, DashpotsMoveTheMassOfTheirOwnEnd) {
     per_mass += h * h * m.masses.mode_inverse[1];
     return 0.4 * std::sqrt(spring / per_mass) * d / m.step;
   };
-  const double low = std::min(m.faces.now.damping_a[k], m.faces.now.damping_b[k]);
-  const double high = std::max(m.faces.now.damping_a[k], m.faces.now.damping_b[k]);
+  const double low = std::min(m.now(k).damping_a, m.now(k).damping_b);
+  const double high = std::max(m.now(k).damping_a, m.now(k).damping_b);
   EXPECT_GT(high, 1.2 * low);
   EXPECT_NEAR(low / dashpot(0.0), 1.0, 1e-4);
   EXPECT_NEAR(high / dashpot(0.4), 1.0, 1e-4);
   // The edge of the base begins at x = 0.4.
-  const bool a_is_high = m.faces.now.damping_a[k] > m.faces.now.damping_b[k];
-  EXPECT_NEAR(a_is_high ? m.faces.now.xi_a[k] : m.faces.now.xi_b[k], 0.0, 1e-3);
+  const bool a_is_high = m.now(k).damping_a > m.now(k).damping_b;
+  EXPECT_NEAR(a_is_high ? m.now(k).xi_a : m.now(k).xi_b, 0.0, 1e-3);
 }
 
 /// A dashpot that follows the pressure: N rebound v/strike, with the speed at which the end closed,
@@ -269,14 +269,14 @@ TEST(MovingFace, DashpotsOfARestitutionFollowThePressure) {
   m.go(1, {{0.0, gap - fast}});
   m.go(1, {{0.0, gap - fast - slow}});
   const std::size_t k = m.main_face();
-  const FaceMemory& now = m.faces.now;
-  EXPECT_NEAR(now.strike_a[k] * m.step, fast, 1e-2 * fast);
-  EXPECT_NEAR(now.damping_a[k] / (rebound * now.normal_a[k] * slow / (now.strike_a[k] * m.step)),
-              1.0, 1e-9);
+  FaceFields now = m.now(k);
+  EXPECT_NEAR(now.strike_a * m.step, fast, 1e-2 * fast);
+  EXPECT_NEAR(now.damping_a / (rebound * now.normal_a * slow / (now.strike_a * m.step)), 1.0, 1e-9);
   // As it leaves, it is pulled by no more than its pressure.
   m.go(1, {{0.0, -slow}});
-  EXPECT_LT(now.damping_a[k], 0.0);
-  EXPECT_GE(now.damping_a[k] + now.normal_a[k], 0.0);
+  now = m.now(k);
+  EXPECT_LT(now.damping_a, 0.0);
+  EXPECT_GE(now.damping_a + now.normal_a, 0.0);
 }
 
 /// The force of the dashpot does not depend on the distance of the block a step before.
@@ -302,9 +302,9 @@ TEST(MovingFace, CohesionNeedsSurfacesThatLieAlongEachOther) {
       m.go(1, {{1e-5 * n, 0.5 * (std::sin(tilt) + std::cos(tilt) - 1.0) - depth}, tilt});
     }
     const std::size_t k = m.main_face();
-    const double cohesion = shear_strength(m.faces, k);
+    const double cohesion = shear_strength(m.row(k));
     EXPECT_NEAR(cohesion, degrees < 5.0 ? 1e5 : 0.0, 2e-3 * 1e5) << degrees;
-    EXPECT_LE(std::abs(shear_force(m.faces, k)), (1.0 + 1e-9) * cohesion) << degrees;
+    EXPECT_LE(std::abs(shear_force(m.row(k))), (1.0 + 1e-9) * cohesion) << degrees;
   }
 }
 
@@ -313,17 +313,34 @@ TEST(MovingFace, AChangeOfTheStepKeepsTheForceOfWhatSticks) {
   MovedBlocks m = pressed_square(rough_joint(80.0), depth);
   for (int n = 1; n <= 5; ++n) m.go(1, {{1e-6 * n, -depth - 1e-6 * n}});
   const double force = m.force_on(1).x;
+  const std::size_t k = m.main_face();
   const std::vector<double> old_x1 = m.pose.x1, old_y1 = m.pose.y1;
   for (std::size_t v = 0; v < m.pose.x.size(); ++v) {
     m.pose.x1[v] = 0.5 * (m.pose.x[v] + m.pose.x1[v]);
     m.pose.y1[v] = 0.5 * (m.pose.y[v] + m.pose.y1[v]);
   }
-  correct_last_step(m.faces, m.blocks, m.pose, old_x1, old_y1);
-  evaluate_faces(m.faces, m.scene(), 0.5 * m.step);
+  m.change([&](const FaceSet& faces, FaceStates& states) {
+    correct_last_step(faces, states, m.blocks, m.pose, old_x1, old_y1);
+    EXPECT_NEAR(states.before[k].closure_a, depth + 4.5e-6, 1e-12);
+    EXPECT_NEAR(states.before[k].closure_b, depth + 4.5e-6, 1e-12);
+  });
+  m.evaluate_from(0.5 * m.step);
   EXPECT_NEAR(m.force_on(1).x, force, 1e-9 * std::abs(force));
-  const std::size_t k = m.main_face();
-  EXPECT_NEAR(m.faces.before.closure_a[k], depth + 4.5e-6, 1e-12);
-  EXPECT_NEAR(m.faces.before.closure_b[k], depth + 4.5e-6, 1e-12);
+}
+
+/// What touched at neither step has no slip, however the step is changed.
+TEST(MovingFace, AChangeOfTheStepLeavesNoSlipWhereNothingTouches) {
+  MovedBlocks m = pressed_square(rough_joint(80.0), -1e-3);
+  for (int n = 1; n <= 3; ++n) m.go(1, {{1e-4 * n, 1e-3}});
+  const std::vector<double> old_x1 = m.pose.x1, old_y1 = m.pose.y1;
+  m.pose.x1 = m.pose.x;
+  m.change([&](const FaceSet& faces, FaceStates& states) {
+    correct_last_step(faces, states, m.blocks, m.pose, old_x1, old_y1);
+    for (const FaceFields& before : states.before) {
+      EXPECT_EQ(before.slip_a, 0.0);
+      EXPECT_EQ(before.slip_b, 0.0);
+    }
+  });
 }
 
 /// Coulomb's limit is that of the part alpha of the normal force.
@@ -334,9 +351,10 @@ TEST(MovingFace, IsCutAnewUnderAPartOfItsNormalForce) {
   const FacePoints at = face_points(m.faces, m.pose.x, m.pose.y, k),
                    then = face_points(m.faces, m.pose.x1, m.pose.y1, k);
   const Face face = face_at(m.faces, m.blocks, m.pose.x, m.pose.y, k);
-  next_step(m.faces);
+  next_step(m.faces, m.tiled.tiles);
+  recall_work(m.faces, m.tiled.tiles);
   const double friction = m.faces.friction_work[k], transfer = m.faces.transfer[k];
-  FaceFields<double> before = row_of(m.faces.before, k);
+  FaceFields before = m.before(k);
   const CornerForces half = recompute_shear(m.faces, before, face, at, then, 0.5, k);
   const double normal = 2e9 * depth, limit = mu * normal;
   const Vec2 on = half.q1 + half.q2;
@@ -368,9 +386,10 @@ TEST(MovingFace, AccountsForTheTransferOfWhatIsCutAnew) {
   const FacePoints at = face_points(m.faces, m.pose.x, m.pose.y, k),
                    then = face_points(m.faces, m.pose.x1, m.pose.y1, k);
   const Face face = face_at(m.faces, m.blocks, m.pose.x, m.pose.y, k);
-  next_step(m.faces);
+  next_step(m.faces, m.tiled.tiles);
+  recall_work(m.faces, m.tiled.tiles);
   const double friction = m.friction(), transfer = m.transfer();
-  FaceFields<double> before = row_of(m.faces.before, k);
+  FaceFields before = m.before(k);
   recompute_shear(m.faces, before, face, at, then, 0.5, k);
   EXPECT_NEAR(m.friction(), friction, 1e-9 * limit * l);
   EXPECT_NEAR(m.transfer() - transfer, (0.625 - 1.0) * limit * l, 1e-6 * limit * l);

@@ -23,9 +23,11 @@ struct Pressed : MovedBlocks {
       : MovedBlocks(test::square_on_base(joint)), from(at), p0(pressure), p1(more), tau(shear) {
     set.blocks[1].rings = {{{from, 0}, {from + 1, 0}, {from + 1, 1}, {from, 1}}};
     start(0.2);
-    joints = preload_faces(faces, blocks, pose, laws,
-                           [&](Id edge, double s0, double s1) { return on(edge, s0, s1); });
-    evaluate_faces(faces, scene(), step);
+    const auto traction = [&](Id edge, double s0, double s1) { return on(edge, s0, s1); };
+    change([&](FaceSet& of, FaceStates& states) {
+      joints = preload_faces(of, states, blocks, pose, laws, traction);
+    });
+    evaluate_from(step);
   }
   /// Forces of the stress on the edge from s0 to s1, which must be horizontal at y = 0.
   EndForces on(Id edge, double s0, double s1) const {
@@ -51,7 +53,7 @@ TEST(Preload, PushesBlocksWithTheTractionAndNothingElse) {
       const double p0 = 1e6, tau = 2e5;
       const Pressed m(joint, 0.0, p0, p1, tau);
       const std::size_t k = m.main_face();
-      const CornerForces on = corner_forces(m.faces, k);
+      const CornerForces on = m.row(k).force;
       EXPECT_NEAR((on.q1 + on.q2).x, tau, (p1 == 0.0 ? 1e-6 : 2e-4) * p0);
       EXPECT_NEAR((on.q1 + on.q2).y, p0 + 0.5 * p1, 1e-6 * p0);
       // On the square's corners, the forces with the same resultant and moment.
@@ -84,7 +86,7 @@ TEST(Preload, LocksThePressureIntoEdges) {
 /// The square extends by half beyond the end of the base, so that the overlap changes.
 TEST(Preload, AccountsForTheForcesThatItRemoves) {
   Pressed m(rough_joint(30.0), 1.4, 4e5, 0.0, 0.0);
-  begin_from_step_end(m.faces);
+  end_at_rest(m.faces, m.tiled.tiles, m.blocks, m.pose);
   const auto place = [](int n) {
     return Place{{4e-2 * std::sin(0.004 * n), -4e-5 * std::sin(0.034 * n)}};
   };
@@ -113,10 +115,10 @@ TEST(JudgeFace, FarSidesDoNotAct) {
   EXPECT_NEAR(m.force_on(1).y, 2e9 * depth, 1e-6 * 2e9 * depth);
   int far = 0;
   for (std::size_t k = 0; k < m.faces.size(); ++k) {
-    if (m.faces.now.closure_a[k] < 0.01) continue;
+    if (m.now(k).closure_a < 0.01) continue;
     ++far;
     EXPECT_EQ(m.faces.acts[k], 0.0);
-    EXPECT_EQ(m.faces.now.energy[k], 0.0);
+    EXPECT_EQ(m.now(k).energy, 0.0);
   }
   EXPECT_GT(far, 0);
 }
@@ -139,7 +141,7 @@ TEST(JudgeFace, NothingLeansAcrossAThirdBlock) {
   m.evaluate();
   int across = 0, beside = 0;
   for (std::size_t k = 0; k < m.faces.size(); ++k) {
-    if (!(m.faces.now.energy[k] > 0.0)) continue;
+    if (!(m.now(k).energy > 0.0)) continue;
     const auto [i, j] = blocks_of_face(m.blocks, m.faces, k);
     const bool neighbours = j - i == 1 || j - i == 4;
     EXPECT_EQ(m.faces.leans[k], neighbours ? 1.0 : 0.0) << i << ' ' << j;

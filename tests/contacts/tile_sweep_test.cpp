@@ -1,4 +1,4 @@
-// The sweep over tiles must give every face the state, to the bit, that evaluate_faces() gives it,
+// The sweep over tiles must give every face the state, to the bit, that it has alone,
 // and every block the sum of the forces of its faces, however the blocks are divided.
 #include <gtest/gtest.h>
 
@@ -47,10 +47,10 @@ struct Drift {
 
   Drift(int blocks, double zeta, double bonded_part, double locked_part)
       : heap(odd_polygons(rng, blocks)), damping(zeta) {
-    FaceSet& c = heap.contacts;
+    FaceSet& c = heap.alone.faces;
     place();
     place();
-    find_faces(c, heap.blocks, heap.state, heap.pose, heap.laws, 0.1);
+    heap.find(0.1);
     std::uniform_real_distribution<double> u(0.0, 1.0);
     for (std::size_t k = 0; k < c.size(); ++k) {
       c.friction[k] = 0.3;
@@ -58,7 +58,6 @@ struct Drift {
       if (u(rng) < bonded_part) c.bonded[k] = c.glued[k] = c.carries_tension[k] = 1.0;
       if (u(rng) < locked_part) c.locked_closure_a[k] = c.locked_closure_b[k] = 1e-4 * u(rng);
     }
-    mark_bonded_chunks(c);
     set_face_dashpots(c, heap.laws, damping);
   }
 
@@ -110,18 +109,18 @@ struct Drift {
   void move(std::size_t most, bool with_fixed) {
     FaceTiles t;
     divide_blocks(t, heap.blocks, heap.state, with_fixed, most);
-    FaceSet own = heap.contacts;
-    load_faces(t, own, heap.blocks, heap.pose);
+    FaceSet own = heap.alone.faces;
+    load_faces(t, own, heap.alone.states, heap.blocks, heap.pose);
     move_on(t, own, with_fixed, 1.0, 0.0);
   }
 
   /// Makes a move with the faces of `own` in tiles, and compares.
   void move_on(FaceTiles& t, FaceSet& own, bool with_fixed, double far, double least_margin) {
-    FaceSet& c = heap.contacts;
+    FaceSet& c = heap.alone.faces;
     next_step(own, t);
-    next_step(c);
+    heap.alone.next_step();
     const double moved = move_blocks(far);
-    evaluate_faces(c, heap.scene(), 1e-3);
+    heap.alone.evaluate(heap.scene(), 1e-3);
     Nodes fx = zero_nodes(heap.blocks.size()), fy = fx;
     SweepScratch scratch;
     SweepScene scene{.blocks = heap.blocks,
@@ -150,17 +149,17 @@ struct Drift {
     compare_forces(t, fx, fy);
   }
 
-  /// Makes a new list, in rows and in tiles.
+  /// Makes a new list, of the faces alone and in tiles.
   void renew(FaceTiles& t, FaceSet& own, double reach) {
     const DriftingHeap& h = heap;
-    FaceSet& c = heap.contacts;
+    FaceSet& c = heap.alone.faces;
     std::vector<std::uint8_t> carry(own.size());
     for (std::size_t k = 0; k < own.size(); ++k)
       carry[k] = t.remembers(lane_bits::stored, k) ? 1 : 0;
     recall_work(own, t);
-    const std::vector<Id> old = renew_faces(own, h.blocks, h.state, h.pose, h.laws, reach, near,
-                                            carry, FaceStates::elsewhere);
-    find_faces(c, h.blocks, h.state, h.pose, h.laws, reach);
+    const std::vector<Id> old =
+        find_faces(own, h.blocks, h.state, h.pose, h.laws, {reach}, near, carry);
+    heap.find(reach);
     for (FaceSet* faces : {&own, &c}) set_face_dashpots(*faces, h.laws, damping);
     renew_tiles(t, own, h.blocks, h.pose, old);
     ASSERT_EQ(own.size(), c.size());
@@ -171,10 +170,10 @@ struct Drift {
     for (const Id k : old) (k == no_id ? listed : kept) += 1;
   }
 
-  /// Takes over what evaluate_faces() has decided: nothing of faces that sleep, and nothing of what
-  /// faces have done so far.
+  /// Takes over what has been decided of the faces alone: nothing of faces that sleep, and nothing
+  /// of what faces have done so far.
   void take_decisions(FaceTiles& t, FaceSet& own) {
-    const FaceSet& c = heap.contacts;
+    const FaceSet& c = heap.alone.faces;
     recall_work(own, t);
     const auto of_history = [](const auto& column) {
       const std::string_view name = column.name;
@@ -192,13 +191,12 @@ struct Drift {
       load_decisions(t, own, heap.blocks, k);
       EXPECT_TRUE(t.place[k][0] == no_id || is_awake(t, t.place[k][0])) << "face " << k;
     }
-    own.bonds = c.bonds;
   }
   static bool is_awake(const FaceTiles& t, Id place) { return t.rest[place / lanes] == 0.0; }
 
   void compare(const FaceTiles& t, bool with_fixed, std::size_t k) {
-    const FaceSet& c = heap.contacts;
-    const FaceMemory& m = c.now;
+    const FaceSet& c = heap.alone.faces;
+    const FaceFields& m = heap.alone.states.now[k];
     const auto is_in = [&](Id edge) {
       return with_fixed || heap.blocks.fixed[heap.blocks.vertex_block[edge]] == 0;
     };
@@ -212,10 +210,10 @@ struct Drift {
       const auto memory = [&](std::size_t column) {
         return number(get<FaceMemoryColumns<double>>(t, t.now, place), column);
       };
-      expect_same(memory(0), m.slip_a[k], "slip a", k);
-      expect_same(memory(1), m.slip_b[k], "slip b", k);
-      expect_same(memory(3), m.spring[k], "spring", k);
-      if (m.spring[k] > 0.0) expect_same(memory(2), m.overlap[k], "overlap", k);
+      expect_same(memory(0), m.slip_a, "slip a", k);
+      expect_same(memory(1), m.slip_b, "slip b", k);
+      expect_same(memory(3), m.spring, "spring", k);
+      if (m.spring > 0.0) expect_same(memory(2), m.overlap, "overlap", k);
       if (is_awake(t, place)) {
         const EdgeCoordinates at = coordinates_at(c, heap.pose.x, heap.pose.y, k);
         const double corners[] = {at.s2, at.y2, at.r1, at.r2, at.z2};
@@ -226,43 +224,42 @@ struct Drift {
         if (q < t.tiles[t.tile_of_chunk[q]].awake_end) ++resting;
       }
       const LaneBits bits = t.bits[t.now][q];
-      EXPECT_EQ(lane_bits::test(bits, lane_bits::stored, lane), m.energy[k] > 0.0);
-      EXPECT_EQ(lane_bits::test(bits, lane_bits::on, lane), m.gate[k] > 0.0);
-      EXPECT_EQ(lane_bits::test(bits, lane_bits::switched, lane), m.switched[k] > 0.0);
+      EXPECT_EQ(lane_bits::test(bits, lane_bits::stored, lane), m.energy > 0.0);
+      EXPECT_EQ(lane_bits::test(bits, lane_bits::on, lane), m.gate > 0.0);
+      EXPECT_EQ(lane_bits::test(bits, lane_bits::switched, lane), m.switched > 0.0);
       if (is_awake(t, place)) compare_found(t.found[t.now][q], lane, k);
       compare_work(t, place, k);
     }
     EXPECT_EQ(copies > 0 ? 1u : 0u, owned);
     EXPECT_EQ(copies > 0, is_in(c.edge[k]) || is_in(c.facing[k]));
-    carrying += m.energy[k] > 0.0;
-    open += m.energy[k] == 0.0;
-    sliding += m.slip_a[k] != m.trial_a[k];
-    opened += c.before.energy[k] > 0.0 && m.energy[k] == 0.0;
+    carrying += m.energy > 0.0;
+    open += m.energy == 0.0;
+    sliding += m.slip_a != m.trial_a;
+    opened += heap.alone.states.before[k].energy > 0.0 && m.energy == 0.0;
   }
 
   void compare_found(LaneBits found, std::size_t lane, std::size_t k) {
-    const FaceSet& c = heap.contacts;
-    const FaceMemory &m = c.now, &old = c.before;
-    const bool touches = m.energy[k] > 0.0 || (c.bonded[k] > 0.0 && m.gate[k] > 0.0);
-    const bool worked = old.energy[k] > 0.0 || old.spring[k] > 0.0;
-    const bool opens = old.energy[k] > 0.0 && m.energy[k] == 0.0,
-               slides = m.slip_a[k] != m.trial_a[k] || m.slip_b[k] != m.trial_b[k];
+    const FaceSet& c = heap.alone.faces;
+    const FaceFields &m = heap.alone.states.now[k], &old = heap.alone.states.before[k];
+    const bool touches = m.energy > 0.0 || (c.bonded[k] > 0.0 && m.gate > 0.0);
+    const bool worked = old.energy > 0.0 || old.spring > 0.0;
+    const bool opens = old.energy > 0.0 && m.energy == 0.0,
+               slides = m.slip_a != m.trial_a || m.slip_b != m.trial_b;
     EXPECT_EQ(lane_bits::test(found, lane_bits::works, lane), touches || worked) << "face " << k;
     EXPECT_EQ(lane_bits::test(found, lane_bits::opens, lane), opens) << "face " << k;
     EXPECT_EQ(lane_bits::test(found, lane_bits::slides, lane), slides) << "face " << k;
-    only_bonded += touches && m.energy[k] == 0.0;
-    only_carried += worked && old.energy[k] == 0.0;
+    only_bonded += touches && m.energy == 0.0;
+    only_carried += worked && old.energy == 0.0;
   }
 
   /// Of a chunk that did no work nothing is kept.
   void compare_work(const FaceTiles& t, Id place, std::size_t k) {
-    const FaceMemory& m = heap.contacts.now;
-    const double expected[] = {m.friction_work[k], m.transfer[k],   m.trial_a[k],
-                               m.trial_b[k],       m.shear_a[k],    m.shear_b[k],
-                               m.damping_work[k],  m.damping_due[k]};
+    const FaceFields& m = heap.alone.states.now[k];
+    const double expected[] = {m.friction_work, m.transfer, m.trial_a,      m.trial_b,
+                               m.shear_a,       m.shear_b,  m.damping_work, m.damping_due};
     if (t.fresh[t.now][place / lanes] == 0) {
-      expect_same(m.trial_a[k], m.slip_a[k], "trial a", k);
-      expect_same(m.trial_b[k], m.slip_b[k], "trial b", k);
+      expect_same(m.trial_a, m.slip_a, "trial a", k);
+      expect_same(m.trial_b, m.slip_b, "trial b", k);
       for (const unsigned i : {0u, 1u, 6u, 7u}) expect_same(0.0, expected[i], "work", k);
       return;
     }
@@ -273,7 +270,7 @@ struct Drift {
 
   /// Work of all steps before this one.
   void compare_sums(const FaceTiles& t, std::size_t k) const {
-    const FaceSet& c = heap.contacts;
+    const FaceSet& c = heap.alone.faces;
     const double expected[] = {c.friction_work[k], c.transfer[k], c.damping_work[k]};
     const Id place = t.place[k][0];
     for (std::size_t i = 0; i < sum_columns && place != no_id; ++i) {
@@ -281,14 +278,14 @@ struct Drift {
     }
   }
 
-  /// Forces on an edge are added in the same order as those of the rows.
+  /// Forces on an edge are added in the same order as those of the faces alone.
   void compare_forces(const FaceTiles& t, const Nodes& fx, const Nodes& fy) {
-    NodalForces rows;
-    sum_faces(rows, heap.blocks, heap.contacts);
+    NodalForces alone;
+    sum_faces(alone, heap.blocks, heap.alone.faces, heap.alone.forces);
     for (const Id i : t.blocks) {
       for (std::size_t n = 0; n < nodes_per_block; ++n) {
-        expect_same(fx[n][i], rows.x[n][i], "force x, block", i);
-        expect_same(fy[n][i], rows.y[n][i], "force y, block", i);
+        expect_same(fx[n][i], alone.x[n][i], "force x, block", i);
+        expect_same(fy[n][i], alone.y[n][i], "force y, block", i);
       }
     }
   }
@@ -335,8 +332,8 @@ void drift_asleep(double damping, double bonded_part, double locked_part, double
   d.move(12, false);
   FaceTiles t;
   divide_blocks(t, d.heap.blocks, d.heap.state, false, 12);
-  FaceSet own = d.heap.contacts;
-  load_faces(t, own, d.heap.blocks, d.heap.pose);
+  FaceSet own = d.heap.alone.faces;
+  load_faces(t, own, d.heap.alone.states, d.heap.blocks, d.heap.pose);
   for (int move = 0; move < 800 && !testing::Test::HasFailure(); ++move) {
     d.move_on(t, own, false, far, 1e-9);
     // Between others far enough apart that faces sleep as long as they may.
@@ -365,8 +362,8 @@ TEST(TileSleep, EndsWhereABlockStraysTwice) {
     d.steady = 1000;
     FaceTiles t;
     divide_blocks(t, d.heap.blocks, d.heap.state, false);
-    FaceSet own = d.heap.contacts;
-    load_faces(t, own, d.heap.blocks, d.heap.pose);
+    FaceSet own = d.heap.alone.faces;
+    load_faces(t, own, d.heap.alone.states, d.heap.blocks, d.heap.pose);
     for (int move = 0; move < 8; ++move) {
       d.jumper = move == 3 || move == 6 ? i : no_id;
       d.jump = move == 3 ? 3.0 : 3000.0;

@@ -126,7 +126,7 @@ class Names(unittest.TestCase):
         self.assertEqual(faults_of(
             "`src/contacts/face.hpp`, `contacts/face.hpp`, `src/contacts/face_*.cpp`, `tools/manual`, `tools/fuzz 600 import`,\n"
             "`flutter_test.cpp`, `src/contacts/`, `EccentricLoad.StressesOfAJoint`, `FactorOfSafety/Slopes`, `FacePair`,\n"
-            "`LawTable::resolve`, `evaluate_faces()`, `edda.load(\"hillside.toml\")`, `joints.csv`, `GPa/m`, `stages/joints_0.csv`,\n"
+            "`LawTable::resolve`, `evaluate_face()`, `edda.load(\"hillside.toml\")`, `joints.csv`, `GPa/m`, `stages/joints_0.csv`,\n"
             "`kn`, `solver.time_step = \"auto\"`, `a span\nof two lines`"), [])
 
     def test_invented_names_are_found(self):

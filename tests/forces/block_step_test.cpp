@@ -152,7 +152,7 @@ TEST(StepCache, GoWithAllThatAStepIsMadeOf) {
   t.changes("a block that is held");
   m.faces = FaceSet{};
   m.state.alive[0] = 0;
-  find_faces(m.faces, m.blocks, m.state, m.pose, m.laws, 0.1);
+  find_faces(m.faces, m.blocks, m.state, m.pose, m.laws, {0.1}, m.near, {});
   t.changes("no faces");
   m.laws.penalty.normal *= 1e3;
   m.laws.penalty.shear *= 1e3;
@@ -184,7 +184,7 @@ TEST(StepCache, GoWithTheEdgeThatHasAFace) {
   for (const Vec2 to : {Vec2{0.0, 0.0}, Vec2{1.5, 1.3}, Vec2{0.0, 0.0}}) {
     m.put(1, {to});
     m.faces = FaceSet{};
-    find_faces(m.faces, m.blocks, m.state, m.pose, m.laws, 0.03);
+    find_faces(m.faces, m.blocks, m.state, m.pose, m.laws, {0.03}, m.near, {});
     ASSERT_EQ(m.faces.size(), 1u);
     EXPECT_NE(own(nullptr), last);
     last = own(nullptr);

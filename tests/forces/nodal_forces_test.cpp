@@ -33,7 +33,7 @@ struct OneBlock : MovedBlocks {
   void gather(Vec2 gravity, const LoadsNow& loads = {}) {
     place_vertices(blocks, state.x, state.y, 0, pose.x, pose.y);
     NodalForces on_faces;
-    sum_faces(on_faces, blocks, faces);
+    sum_faces(on_faces, blocks, faces, corner_forces(faces, tiled.tiles, blocks, pose));
     gather_forces(forces, blocks, state, pose, on_faces, springs, gravity, loads);
   }
   Vec2 on_node(std::size_t k) const { return {forces.x[k][0], forces.y[k][0]}; }
@@ -112,7 +112,7 @@ TEST(NodalForces, OfFacesWorkAsOnTheCorners) {
   BoundarySprings none;
   none.block_begin.assign(3, 0);
   NodalForces on_faces;
-  sum_faces(on_faces, m.blocks, m.faces);
+  sum_faces(on_faces, m.blocks, m.faces, corner_forces(m.faces, m.tiled.tiles, m.blocks, m.pose));
   gather_forces(forces, m.blocks, m.state, m.pose, on_faces, none, {});
   std::mt19937 rng(3);
   std::uniform_real_distribution<double> u(-1.0, 1.0);
@@ -125,13 +125,13 @@ TEST(NodalForces, OfFacesWorkAsOnTheCorners) {
   }
   double on_corners = 0.0;
   for (std::size_t k = 0; k < m.faces.size(); ++k) {
-    const CornerForces on = corner_forces(m.faces, k);
+    const CornerForces on = m.row(k).force;
     on_corners += dot(on.q1, vertex_at(m.blocks, dx, dy, m.faces.facing[k])) +
                   dot(on.q2, vertex_at(m.blocks, dx, dy, m.faces.facing_end[k]));
   }
   EXPECT_GT(std::abs(on_corners), 1e4);
   EXPECT_NEAR(on_nodes, on_corners, 1e-9 * std::abs(on_corners));
-  EXPECT_NEAR(norm(contact_resultant(m.blocks, m.faces, 1) - m.force_on(1)), 0.0, 1e-6);
+  EXPECT_NEAR(norm(resultant(vectors_of(on_faces.x, on_faces.y, 1)) - m.force_on(1)), 0.0, 1e-6);
 }
 
 /// eta C : dU/dt of a block that is neither turned nor strained.

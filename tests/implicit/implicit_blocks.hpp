@@ -2,9 +2,9 @@
 #pragma once
 
 #include "blocks/build_blocks.hpp"
-#include "contacts/evaluate_faces.hpp"
 #include "contacts/face_bonds.hpp"
 #include "contacts/find_faces.hpp"
+#include "contacts/tile_trials.hpp"
 #include "cutting/build_polygons.hpp"
 #include "implicit/assemble.hpp"
 #include "model/read_model.hpp"
@@ -40,14 +40,23 @@ struct ImplicitBlocks {
     place();
     pose.x1 = pose.x;
     pose.y1 = pose.y;
-    find_faces(contacts, blocks, state, pose, laws, 0.05);
-    evaluate_faces(contacts, scene().faces(pose), 1.0);
-    begin_from_step_end(contacts);  // limits of friction
     settings.step = 2e-3;
     settings.mass_damping = 3.0;
     settings.contact_damping = 0.1;
+    NearEdges near;
+    find_faces(contacts, blocks, state, pose, laws, {0.05}, near, {});
+    const auto load = [&](const FaceStates& states) {
+      load_tiles(tiled, contacts, states, blocks, state, pose, false, blocks.size());
+    };
+    load(FaceStates(contacts.size()));
+    FacesInStep at_rest(contacts, tiled, scene().faces(pose), 1.0, 0.0,
+                        {forces.x, forces.y, forces.modes});
+    at_rest.sweep();
+    at_rest.decide_and_evaluate(at_rest.asking());
+    end_at_rest(contacts, tiled.tiles, blocks, pose);  // limits of friction
+    const FaceStates states = states_of(contacts, tiled.tiles, blocks, pose);
     set_face_dashpots(contacts, laws, settings.contact_damping);
-    load_tiles(tiled, contacts, blocks, state, pose, false, blocks.size());
+    load(states);
   }
 
   TrialFaces trial() { return {contacts, tiled}; }

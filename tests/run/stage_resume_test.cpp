@@ -199,7 +199,6 @@ every = 0.02
 
 /// Its contents, except wall times.
 Record memory_of(Simulation& sim) {
-  update_face_rows(sim);
   Record record;
   remember(sim, record);
   std::erase_if(record, [](const auto& entry) { return entry.first.starts_with("seconds."); });

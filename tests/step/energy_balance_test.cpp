@@ -4,11 +4,13 @@
 #include <cmath>
 
 #include "contacts/face_reading.hpp"
-#include "contacts/find_faces.hpp"
 #include "run/prepared.hpp"
 #include "step/changes.hpp"
+#include "step/contact_search.hpp"
 #include "step/energy_balance.hpp"
+#include "step/faces_now.hpp"
 #include "step/step.hpp"
+#include "step/tile_step.hpp"
 
 namespace edda::ledger_test {
 namespace {
@@ -203,19 +205,24 @@ TEST(EnergyBalance, KeepsTheDissipationOfRemovedFaces) {
                         "[[2.2,0],[3.2,0],[3.2,1],[2.2,1]]\n")
           .sim;
   drift_of(sim, 0.01);
-  FaceSet& c = sim.motion.contacts;
-  c.transfer[0] += 3.0;
-  c.fracture_work[0] += 5.0;
-  c.damping_work[0] += 7.0;
+  const FaceSet& faces = sim.motion.contacts;
+  change_faces(sim, [](FaceSet& c, FaceStates&) {
+    c.transfer[0] += 3.0;
+    c.fracture_work[0] += 5.0;
+    c.damping_work[0] += 7.0;
+  });
   const EnergyBalance before = energy_balance(sim);
   // Far away: a new list contains none of its faces.
   for (std::size_t v = sim.scene->blocks.vertex_begin[1]; v < sim.scene->blocks.vertex_count();
        ++v) {
     sim.motion.pose.x[v] += 50.0;
   }
-  for (auto* energy : {&c.now.energy, &c.bonded}) energy->fill(0.0);
-  find_faces(c, sim.scene->blocks, sim.motion.state, sim.motion.pose, sim.motion.laws, 0.01);
-  ASSERT_EQ(c.size(), 0u);
+  change_faces(sim, [](FaceSet& c, FaceStates& states) {
+    for (FaceFields& m : states.now) m.energy = 0.0;
+    c.bonded.fill(0.0);
+  });
+  search(sim, {0.01});
+  ASSERT_EQ(faces.size(), 0u);
   const EnergyBalance after = energy_balance(sim);
   EXPECT_GT(before.friction, 0.0);
   EXPECT_NEAR(after.friction, before.friction, 1e-9 * before.friction);
@@ -287,8 +294,7 @@ TEST(Jumps, AreTheChangeOfForces) {
     x += sim.motion.jump.x[k].empty() ? 0.0 : sim.motion.jump.x[k][1];
     y += sim.motion.jump.y[k].empty() ? 0.0 : sim.motion.jump.y[k][1];
   }
-  const double normal = normal_force(sim.motion.contacts, 0),
-               tangent = std::tan(20.0 * M_PI / 180.0);
+  const double normal = normal_force_now(sim, 0), tangent = std::tan(20.0 * M_PI / 180.0);
   EXPECT_NEAR(x, 0.5 * tangent * normal, 1e-3 * normal);
   EXPECT_NEAR(y, 0.0, 1e-3 * normal);
 }

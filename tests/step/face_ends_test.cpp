@@ -7,6 +7,7 @@
 #include "model/read_model.hpp"
 #include "observe/observe.hpp"
 #include "run/prepared.hpp"
+#include "step/faces_now.hpp"
 #include "step/step.hpp"
 
 namespace edda::face_ends_test {
@@ -32,10 +33,10 @@ TEST(FaceEnds, AreAsFarApartAsTheFaceIsLong) {
     const Simulation sim = after_steps(entry.path(), 200);
     const FaceSet& f = sim.motion.contacts;
     for (std::size_t k = 0; k < f.size(); ++k) {
-      const FaceSpan span = span_of(f, sim.motion.pose, k);
+      const FaceSpan span = span_of(face_row(sim, k), sim.motion.pose);
       const FacePoints at = face_points(f, sim.motion.pose.x, sim.motion.pose.y, k);
       const Vec2 t = frame_of(at, f.inverse_e[k], f.inverse_f[k]), edge = unit(at.p2 - at.p1);
-      const double length = f.now.length[k], apart = norm(span.b - span.a);
+      const double length = face_row(sim, k).state.length, apart = norm(span.b - span.a);
       if (!(norm(t) > 0.0)) continue;
       ++faces;
       const std::string face = entry.path().filename().string() + ", face " + std::to_string(k);

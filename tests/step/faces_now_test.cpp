@@ -1,4 +1,4 @@
-// Looks at faces whose rows are behind must see what the rows say once they are up to date.
+// What is read of all faces at once is what each of them says.
 #include "step/faces_now.hpp"
 
 #include <gtest/gtest.h>
@@ -8,13 +8,10 @@
 #include <vector>
 
 #include "contacts/activity.hpp"
-#include "contacts/evaluate_faces.hpp"
+#include "contacts/evaluate_face.hpp"
 #include "contacts/face_reading.hpp"
 #include "run/prepared.hpp"
-#include "step/invariants.hpp"
 #include "step/step.hpp"
-#include "step/tile_step.hpp"
-#include "step/touching.hpp"
 
 namespace edda::faces_now_test {
 namespace {
@@ -37,78 +34,25 @@ Simulation falling(const std::string& contact_damping) {
 
 void compare_normal_forces(const std::string& contact_damping) {
   Simulation sim = falling(contact_damping);
-  constexpr double rounding = 1e-4;  // N
   double largest = 0.0;
-  std::size_t behind = 0;
   while (sim.motion.state.time < 0.05) {
-    ASSERT_FALSE(step_ahead(sim));
-    if (sim.motion.tiled.ahead) ++behind;  // not after a step that has made a new list
-    const std::size_t n = sim.motion.contacts.size();
-    std::vector<double> seen(n);
-    for (std::size_t k = 0; k < n; ++k) seen[k] = normal_force_now(sim, k);
-    update_face_rows(sim);
-    const FaceSet& c = sim.motion.contacts;
-    for (std::size_t k = 0; k < n; ++k) {
-      const double in_row = is_closed(c, k) ? normal_force(c, k) : 0.0;
-      EXPECT_NEAR(seen[k], in_row, rounding) << "face " << k;
-      EXPECT_NEAR(seen[k], normal_force_now(sim, k), rounding) << "face " << k;
-      largest = std::max(largest, in_row);
-    }
-  }
-  EXPECT_GT(largest, 1e9 * rounding);
-  EXPECT_TRUE(invariants_are_checked || behind > sim.motion.state.steps / 2);
-}
-
-TEST(FacesNow, NormalForcesAreThoseOfTheRows) {
-  for (const char* contact_damping : {"0", "0.1"}) compare_normal_forces(contact_damping);
-}
-
-/// All that a table or a picture says of a face, to the bit.
-void compare_faces(const std::string& contact_damping) {
-  Simulation sim = falling(contact_damping);
-  std::size_t behind = 0;
-  while (sim.motion.state.time < 0.02) {
-    ASSERT_FALSE(step_ahead(sim));
-    if (sim.motion.tiled.ahead) ++behind;
-    std::vector<FaceFields<double>> states;
-    std::vector<CornerForces> forces;
-    for (std::size_t k = 0; k < sim.motion.contacts.size(); ++k) {
+    ASSERT_FALSE(step(sim));
+    const std::vector<double> all = normal_forces_now(sim);
+    const FaceMeasures measures = measure_faces(sim);
+    for (std::size_t k = 0; k < all.size(); ++k) {
       const FaceRow face = face_row(sim, k);
-      states.push_back(face.state);
-      forces.push_back(face.force);
-    }
-    update_face_rows(sim);
-    for (std::size_t k = 0; k < states.size(); ++k) {
-      FaceRow row = face_row(sim, k);
-      if (row.state.spring == 0.0) row.state.overlap = 0.0;  // of springs that are not there
-      for (const auto& field : face_fields<double>)
-        ASSERT_EQ(states[k].*field.values, row.state.*field.values) << field.name << k;
-      for (const auto corner :
-           {&CornerForces::p1, &CornerForces::p2, &CornerForces::q1, &CornerForces::q2}) {
-        ASSERT_EQ((forces[k].*corner).x, (row.force.*corner).x) << k;
-        ASSERT_EQ((forces[k].*corner).y, (row.force.*corner).y) << k;
-      }
+      const double force = is_closed(face) ? normal_force(face) : 0.0;
+      EXPECT_EQ(is_closed_now(sim, k), is_closed(face)) << "face " << k;
+      EXPECT_EQ(all[k], force) << "face " << k;
+      EXPECT_EQ(measures.normal[k], force) << "face " << k;
+      largest = std::max(largest, force);
     }
   }
-  EXPECT_TRUE(invariants_are_checked || behind > sim.motion.state.steps / 2);
+  EXPECT_GT(largest, 1e5);
 }
 
-TEST(FacesNow, FacesByValueAreTheRowsToTheBit) {
-  for (const char* contact_damping : {"0", "0.1"}) compare_faces(contact_damping);
-}
-
-TEST(FacesNow, BlocksThatTouchAreThoseOfTheRows) {
-  Simulation sim = falling("0.1");
-  std::size_t touched = 0, apart = 0;
-  while (sim.motion.state.time < 0.05) {
-    ASSERT_FALSE(step_ahead(sim));
-    const std::vector<std::uint8_t> seen = touching(sim);
-    update_face_rows(sim);
-    ASSERT_EQ(seen, touching(sim)) << sim.motion.state.steps;
-    for (const std::uint8_t touches : seen) (touches != 0 ? touched : apart) += 1;
-  }
-  EXPECT_GT(touched, 100u);
-  EXPECT_GT(apart, 100u);
+TEST(FacesNow, NormalForcesAreThoseOfTheFaces) {
+  for (const char* contact_damping : {"0", "0.1"}) compare_normal_forces(contact_damping);
 }
 
 struct DeepestRow {
@@ -121,25 +65,24 @@ DeepestRow deepest_row(const Simulation& sim) {
   const Pose& pose = sim.motion.pose;
   DeepestRow deepest;
   for (std::size_t k = 0; k < c.size(); ++k) {
-    const double ratio = closure_of(c, k) / narrower_radius(b, c, k);
+    const FaceRow row = face_row(sim, k);
+    const double ratio = closure_of(row) / narrower_radius(b, c, k);
     const Face face = face_at(c, b, pose.x, pose.y, k);
-    if (c.now.energy[k] > 0.0 && ratio > deepest.ratio &&
+    if (row.state.energy > 0.0 && ratio > deepest.ratio &&
         overlap_where_pressed(c, b, pose, face, k))
       deepest = {k, ratio};
   }
   return deepest;
 }
 
-TEST(FacesNow, TheDeepestIsThatOfTheRows) {
+TEST(FacesNow, TheDeepestIsThatOfAllFaces) {
   Simulation sim = falling("0");
   constexpr double rounding = 1e-13;
   double largest = 0.0;
-  int found = 0, none = 0, behind = 0;
+  int found = 0, none = 0;
   while (sim.motion.state.time < 0.05) {
-    ASSERT_FALSE(step_ahead(sim));
-    if (sim.motion.tiled.ahead) ++behind;
+    ASSERT_FALSE(step(sim));
     const DeepestNow any = deepest_now(sim, 0.0), more = deepest_now(sim, 1.001 * largest);
-    update_face_rows(sim);
     const FaceSet& c = sim.motion.contacts;
     const DeepestRow deepest = deepest_row(sim);
     EXPECT_NEAR(any.ratio, deepest.ratio, rounding);
@@ -150,13 +93,17 @@ TEST(FacesNow, TheDeepestIsThatOfTheRows) {
     }
     ++found;
     EXPECT_EQ(more.face, deepest.face);
-    EXPECT_NEAR(more.depth, closure_of(c, deepest.face), rounding);
-    EXPECT_LT(norm(more.place - deeper_end(c, sim.motion.pose, deepest.face)), rounding);
+    const FaceRow row = face_row(sim, deepest.face);
+    const FaceFields& m = row.state;
+    const Pose& pose = sim.motion.pose;
+    const Vec2 place = deeper_end(face_points(c, pose.x, pose.y, deepest.face),
+                                  {m.closure_a, m.closure_b}, {m.xi_a, m.xi_b}, {m.eta_a, m.eta_b});
+    EXPECT_NEAR(more.depth, closure_of(row), rounding);
+    EXPECT_LT(norm(more.place - place), rounding);
     largest = more.ratio;
   }
   EXPECT_GT(found, 0);
   EXPECT_GT(none, 0);
-  EXPECT_TRUE(invariants_are_checked || behind > 100);  // checks read the rows after every step
 }
 
 }  // namespace

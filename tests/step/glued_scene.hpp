@@ -8,10 +8,10 @@
 #include <random>
 #include <string>
 
-#include "contacts/evaluate_faces.hpp"
 #include "model/read_model.hpp"
 #include "step/contact_search.hpp"
 #include "step/simulation.hpp"
+#include "step/tile_step.hpp"
 
 namespace edda {
 
@@ -38,7 +38,7 @@ inline Nodes accelerate(Simulation& s, bool along_x) {
     place_vertices(s.scene->blocks, s.motion.state.x, s.motion.state.y, i, s.motion.pose.x,
                    s.motion.pose.y);
   }
-  evaluate_faces(s.motion.contacts, face_scene(s), 1.0);
+  evaluate_at_rest(s, 1.0);
   sum_face_forces(s);
   gather_forces(s.motion.forces, s.scene->blocks, s.motion.state, s.motion.pose,
                 s.motion.on_contacts, s.attached.springs, {0, 0});

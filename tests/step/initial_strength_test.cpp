@@ -8,6 +8,7 @@
 
 #include "contacts/face_reading.hpp"
 #include "model/read_model.hpp"
+#include "step/faces_now.hpp"
 #include "step/simulation.hpp"
 
 namespace edda::initial_strength_test {
@@ -44,7 +45,7 @@ stress = [-3e6, -2e6, )" + std::to_string(shear) +
 
 bool slipped(const Simulation& sim) {
   for (std::size_t k = 0; k < sim.motion.contacts.size(); ++k) {
-    if (slides(sim.motion.contacts, k)) return true;
+    if (slides(face_row(sim, k))) return true;
   }
   return false;
 }

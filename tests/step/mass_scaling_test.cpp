@@ -8,6 +8,7 @@
 #include "model/read_model.hpp"
 #include "step/changes.hpp"
 #include "step/energy_balance.hpp"
+#include "step/faces_now.hpp"
 #include "step/simulation.hpp"
 #include "step/step.hpp"
 
@@ -94,7 +95,7 @@ TEST(MassScaling, LeavesTheEquilibriumAsItIs) {
     while (sim.motion.state.time < 0.03) ASSERT_FALSE(edda::step(sim));
     double on_floor = 0.0, on_cube = 0.0;
     for (std::size_t k = 0; k < sim.motion.contacts.size(); ++k) {
-      const double n = normal_force(sim.motion.contacts, k);
+      const double n = normal_force(face_row(sim, k));
       const Id low = std::min(block_of_edge(sim.scene->blocks, sim.motion.contacts, k),
                               block_of_facing(sim.scene->blocks, sim.motion.contacts, k));
       (low == 0 ? on_floor : on_cube) += n;

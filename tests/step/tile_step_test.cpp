@@ -1,4 +1,4 @@
-// Steps with the faces in tiles must do what steps that evaluate the rows of the faces do.
+// Steps of the faces in tiles leave each of them as it follows from its own past.
 #include "step/tile_step.hpp"
 
 #include <gtest/gtest.h>
@@ -8,56 +8,74 @@
 #include <random>
 #include <string>
 
+#include "contacts/tile_rows.hpp"
 #include "run/prepared.hpp"
 #include "step/changes.hpp"
 #include "step/contact_search.hpp"
 #include "step/energy_balance.hpp"
+#include "step/faces_now.hpp"
 #include "step/step.hpp"
 
 namespace edda::tile_step_test {
 namespace {
 
-void expect_same_rows(const FaceSet& a, const FaceSet& b) {
-  ASSERT_EQ(a.size(), b.size());
-  const auto compare = [&](const char* of, const char* name, const std::vector<double>& p,
-                           const std::vector<double>& q) {
-    for (std::size_t k = 0; k < p.size(); ++k) {
-      EXPECT_EQ(p[k], q[k]) << of << name << " of face " << k;
-    }
-  };
-  // Where edges do not face each other there is nothing to know; a face that has just been listed
-  // has no state until its first step.
-  const auto on = [](const FaceSet& c, const auto& column) {
-    std::vector<double> values = (c.now.*column.values).values();
-    for (std::size_t k = 0; k < values.size(); ++k) {
-      const bool of_no_spring =
-          column.values == &FaceFields<ChunkColumn>::overlap && c.now.spring[k] == 0.0;
-      if (c.now.gate[k] == 0.0 || of_no_spring) values[k] = 0.0;
-    }
-    return values;
-  };
-  for (const auto& column : face_columns) {
-    compare("now: ", column.name, on(a, column), on(b, column));
+/// A number of a face as a step must leave it, to the bit; it says nothing where no edge faces the
+/// other, nor of the length of springs that are not there.
+void expect_field(const FaceField& field, const FaceFields& is, const FaceFields& expected,
+                  std::size_t k) {
+  const bool of_no_spring = field.value == &FaceFields::overlap && expected.spring == 0.0;
+  if (expected.gate == 0.0 || of_no_spring) return;
+  EXPECT_EQ(is.*field.value, expected.*field.value) << field.name << " of face " << k;
+}
+
+/// The state of every face follows from its state at n and the positions alone, whatever lies in
+/// tiles, sleeps, or has been corrected; nothing more is to be decided of it; and blocks carry the
+/// sum of its forces.
+void expect_faces_follow(const Simulation& sim) {
+  const Motion& motion = sim.motion;
+  const FaceTiles& tiles = motion.tiled.tiles;
+  const BlockSet& b = sim.scene->blocks;
+  FaceSet faces = motion.contacts;
+  for (std::size_t k = 0; k < faces.size(); ++k) {
+    if (tiles.place[k][0] == no_id) continue;
+    const FaceRow row = face_row(sim, k);
+    const FaceFields before = remembered(tiles, k);
+    const double acts = faces.acts[k], leans = faces.leans[k];
+    if (faces.failure[k] == 0.0) decide_face(faces, face_scene(sim), motion.state.step, before, k);
+    EXPECT_EQ(faces.acts[k], acts) << k;
+    EXPECT_EQ(faces.leans[k], leans) << k;
+    const EvaluatedFace face = evaluate_face(faces, face_scene(sim), motion.state.step, before, k);
+    const bool listed_since = face.state.gate > 0.0 && row.state.gate == 0.0;
+    if (listed_since) continue;
+    for (const FaceField& field : face_fields) expect_field(field, row.state, face.state, k);
   }
-  for (const auto& column : face_properties) {
-    compare("", column.name, (a.*column.values).values(), (b.*column.values).values());
+  NodalForces on;
+  sum_faces(on, b, faces, corner_forces(faces, tiles, b, motion.pose));
+  for (const Id i : tiles.blocks) {
+    for (std::size_t n = 0; n < nodes_per_block; ++n) {
+      EXPECT_EQ(motion.on_contacts.x[n][i], on.x[n][i]) << "block " << i;
+      EXPECT_EQ(motion.on_contacts.y[n][i], on.y[n][i]) << "block " << i;
+    }
   }
 }
 
-void compare_steps(const std::string& text, double duration) {
-  Simulation tiled = testing::prepared(text).sim, rows = testing::prepared(text).sim;
-  rows.motion.tiled.use = false;
-  ASSERT_FALSE(steps_in_tiles(rows));
-  ASSERT_TRUE(steps_in_tiles(tiled));
-  start(tiled, duration);
-  start(rows, duration);
-  while (tiled.motion.state.time < duration && !::testing::Test::HasFailure()) {
-    ASSERT_FALSE(step(tiled));
-    ASSERT_FALSE(step(rows));
-    ASSERT_EQ(tiled.motion.state.steps, rows.motion.state.steps);
-    expect_same_rows(tiled.motion.contacts, rows.motion.contacts);
-    if (::testing::Test::HasFailure()) ADD_FAILURE() << "step " << tiled.motion.state.steps;
+using Before = std::function<void(Simulation&, int)>;  // before each step
+
+/// Makes so many steps, looks at every seventh, and returns how many faces have opened and closed.
+std::uint64_t follow(
+    const std::string& text, int steps, const Before& before = [](Simulation&, int) {}) {
+  Simulation sim = testing::prepared(text).sim;
+  sim.motion.tiled.most_blocks = 7;
+  start(sim, 100.0);
+  for (int n = 0; n < steps && !::testing::Test::HasFailure(); ++n) {
+    before(sim, n);
+    const std::uint64_t list = sim.motion.contacts.rebuilds;
+    EXPECT_FALSE(step(sim));
+    if (n % 7 != 0 || sim.motion.contacts.rebuilds != list) continue;
+    expect_faces_follow(sim);
+    if (::testing::Test::HasFailure()) ADD_FAILURE() << "step " << sim.motion.state.steps;
   }
+  return sim.accounts.open_close.switched;
 }
 
 const std::string rock =
@@ -66,13 +84,13 @@ const std::string rock =
 
 TEST(TileStep, Corners) {
   for (const char* damping : {"0", "50"}) {
-    compare_steps(rock + "damping = { mass = " + damping +
-                      " }\n[contact]\nnormal_stiffness = 2e9\n[[block]]\nfixed = true\n"
-                      "polygon = [[-3,-1],[3,-1],[3,0],[-3,0]]\n[[block]]\nvelocity = [1, -2]\n"
-                      "polygon = [[0,0.01],[1,0.06],[0.95,1.06],[-0.05,1.01]]\n[[block]]\n"
-                      "velocity = [0, -3]\n"
-                      "polygon = [[-0.2,1.2],[0.8,1.1],[0.9,2.1],[-0.1,2.2]]\n",
-                  0.02);
+    follow(rock + "damping = { mass = " + damping +
+               " }\n[contact]\nnormal_stiffness = 2e9\n[[block]]\nfixed = true\n"
+               "polygon = [[-3,-1],[3,-1],[3,0],[-3,0]]\n[[block]]\nvelocity = [1, -2]\n"
+               "polygon = [[0,0.01],[1,0.06],[0.95,1.06],[-0.05,1.01]]\n[[block]]\n"
+               "velocity = [0, -3]\n"
+               "polygon = [[-0.2,1.2],[0.8,1.1],[0.9,2.1],[-0.1,2.2]]\n",
+           2000);
   }
 }
 
@@ -84,23 +102,18 @@ const std::string hit_wall =
     "velocity = [-12.0, 3.0]\nangular_velocity = 4.0\n"
     "polygon = [[3.0, 0.2], [3.6, 0.2], [3.6, 0.9], [3.0, 0.9]]\n";
 
-TEST(TileStep, WallThatIsHit) {
-  compare_steps(hit_wall, 0.01);
-}
-
-/// Nothing depends on when the rows are brought up to date, or on when the faces are taken into
-/// tiles.
-TEST(TileStep, RowsInBetweenChangeNothing) {
+/// Nothing depends on when faces are read, or taken out of their tiles and put back.
+TEST(TileStep, FacesThatAreTakenOutAndPutBackAreTheSame) {
   Simulation ahead = testing::prepared(hit_wall).sim, asked = testing::prepared(hit_wall).sim;
   for (Simulation* sim : {&ahead, &asked}) {
     sim->motion.tiled.most_blocks = 16;
     start(*sim, 1.0);
   }
   for (int n = 0; n < 20000; ++n) {
-    ASSERT_FALSE(step_ahead(ahead));
-    ASSERT_FALSE(step_ahead(asked));
-    if (n % 3 == 0) update_face_rows(asked);
-    if (n % 5 == 0) faces_to_change(asked);
+    ASSERT_FALSE(step(ahead));
+    ASSERT_FALSE(step(asked));
+    if (n % 3 == 0) take_faces(asked);
+    if (n % 5 == 0) put_faces(asked, take_faces(asked));
     ASSERT_EQ(ahead.motion.state.x, asked.motion.state.x) << n;
     ASSERT_EQ(ahead.motion.on_contacts.y, asked.motion.on_contacts.y) << n;
   }
@@ -140,8 +153,8 @@ void compare_asleep_and_awake(const std::string& text, int steps) {
   }
   std::size_t asleep = 0;
   for (int n = 0; n < steps; ++n) {
-    ASSERT_FALSE(step_ahead(sleeping));
-    ASSERT_FALSE(step_ahead(awake));
+    ASSERT_FALSE(step(sleeping));
+    ASSERT_FALSE(step(awake));
     ASSERT_EQ(sleeping.motion.state.x, awake.motion.state.x) << n;
     ASSERT_EQ(sleeping.motion.on_contacts.y, awake.motion.on_contacts.y) << n;
     ASSERT_EQ(sleeping.accounts.penetration, awake.accounts.penetration) << n;
@@ -163,45 +176,16 @@ TEST(TileStep, SleepChangesNothing) {
   compare_asleep_and_awake(loose_roof, 2000);
 }
 
-using Before = std::function<void(Simulation&, int)>;  // before each step
-
-/// Faces in tiles go on as those in rows, to the bit, also where what is decided of a face changes
-/// while opening and closing are corrected, and where faces sleep. Returns how many have opened and
-/// closed.
-std::uint64_t compare_with_rows(
-    const std::string& text, int steps, const Before& before = [](Simulation&, int) {}) {
-  Simulation tiled = testing::prepared(text).sim, rows = testing::prepared(text).sim;
-  tiled.motion.tiled.most_blocks = 7;
-  rows.motion.tiled.use = false;
-  start(tiled, 100.0);
-  start(rows, 100.0);
-  for (int n = 0; n < steps && !::testing::Test::HasFailure(); ++n) {
-    for (Simulation* sim : {&tiled, &rows}) {
-      before(*sim, n);
-      EXPECT_FALSE(step_ahead(*sim));
-    }
-    EXPECT_EQ(tiled.motion.state.x, rows.motion.state.x) << n;
-    EXPECT_EQ(tiled.motion.state.y, rows.motion.state.y) << n;
-    EXPECT_EQ(tiled.accounts.penetration, rows.accounts.penetration) << n;
-  }
-  update_face_rows(tiled);
-  const FaceSet &a = tiled.motion.contacts, &b = rows.motion.contacts;
-  for (const auto& column : face_properties) {
-    EXPECT_EQ((a.*column.values).values(), (b.*column.values).values()) << column.name;
-  }
-  return tiled.accounts.open_close.switched;
+TEST(TileStep, FacesFollow) {
+  EXPECT_GT(follow(hit_wall, 20000), 20u);
 }
-
-TEST(TileStep, GoesOnAsWithRows) {
-  EXPECT_GT(compare_with_rows(hit_wall, 20000), 20u);
+TEST(TileStep, FacesFollowAsARoofFalls) {
+  EXPECT_GT(follow(loose_roof, 2000), 50u);
 }
-TEST(TileStep, GoesOnAsWithRowsAsARoofFalls) {
-  EXPECT_GT(compare_with_rows(loose_roof, 2000), 50u);
+TEST(TileStep, FacesFollowInAHeap) {
+  EXPECT_GT(follow(falling_heap(), 20000), 100u);
 }
-TEST(TileStep, GoesOnAsWithRowsInAHeap) {
-  EXPECT_GT(compare_with_rows(falling_heap(), 20000), 100u);
-}
-TEST(TileStep, GoesOnAsWithRowsWhereBlocksFallOnEachOther) {
+TEST(TileStep, FacesFollowWhereBlocksFallOnEachOther) {
   std::string text =
       "[materials.rock]\ndensity = 2600.0\nyoung = 200e9\ndamping = 0\npoisson = 0.2\n"
       "[joints.j]\nfriction_angle = 0.0\n[contact]\nnormal_stiffness = 2e9\n[solver]\n"
@@ -216,13 +200,12 @@ TEST(TileStep, GoesOnAsWithRowsWhereBlocksFallOnEachOther) {
     }
     text += "]\n";
   }
-  EXPECT_GT(compare_with_rows(text, 60000), 20u);
-  compare_steps(text, 2.5);
+  EXPECT_GT(follow(text, 60000), 20u);
 }
 /// A step in which a vertex moves too far is made again with half of the length.
-TEST(TileStep, GoesOnAsWithRowsWhereAStepIsMadeAgain) {
+TEST(TileStep, FacesFollowWhereAStepIsMadeAgain) {
   std::uint64_t redone = 0;
-  compare_with_rows(falling_heap(), 20000, [&](Simulation& sim, int n) {
+  follow(falling_heap(), 20000, [&](Simulation& sim, int n) {
     redone = sim.accounts.steps.redone;
     if (sim.accounts.open_close.switched > 50 && redone < 4 && n % 500 == 0)
       sim.scene.edit().displacement_limit = 0.98 * sim.control.last_displacement;
@@ -231,7 +214,7 @@ TEST(TileStep, GoesOnAsWithRowsWhereAStepIsMadeAgain) {
 }
 TEST(TileStep, DashpotsThatAreTakenAwayLeaveTheTiles) {
   bool left = false;
-  compare_with_rows(falling_heap(), 12000, [&](Simulation& sim, int n) {
+  follow(falling_heap(), 12000, [&](Simulation& sim, int n) {
     if (n == 6000) change_damping(sim, {}, false);
     left = !sim.motion.contacts.dashpots;
   });
@@ -244,33 +227,37 @@ const std::string wall_and_falling_block =
     "polygon = [[-4, -1], [8, -1], [8, 0], [-4, 0]]\n[[brick_wall]]\ncolumns = 4\nrows = 4\n"
     "brick = [1.0, 0.5]\njoint = \"j\"\n[[block]]\nvelocity = [0.0, -3.0]\n"
     "angular_velocity = 1.0\npolygon = [[6.0, 2.2], [6.6, 2.2], [6.6, 2.9], [6.0, 2.9]]\n";
-/// What dashpots did last is neither lost with them nor counted again.
-void compare_without_dashpots(bool list_at_once) {
-  Simulation tiled = testing::prepared(wall_and_falling_block).sim, rows = tiled;
-  rows.motion.tiled.use = false;
-  for (Simulation* sim : {&tiled, &rows}) {
-    start(*sim, 100.0);
-    for (int n = 0; n < 500; ++n) ASSERT_FALSE(step_ahead(*sim));
-    update_face_rows(*sim);
-    change_damping(*sim, {}, false);
-    ASSERT_FALSE(step_ahead(*sim));
-    if (list_at_once) search(*sim, sim->motion.contacts.reach);
-    EXPECT_TRUE(sim->motion.contacts.dashpots);
-    for (int n = 0; n < 8000; ++n) ASSERT_FALSE(step_ahead(*sim));
-    EXPECT_FALSE(sim->motion.contacts.dashpots);
-    account_energy(*sim);
-    faces_to_change(*sim);
-    for (int n = 0; n < 10; ++n) ASSERT_FALSE(step_ahead(*sim));
-  }
-  const double damping = account_energy(rows).damping;
-  EXPECT_GT(damping, 0.0);
-  EXPECT_EQ(account_energy(tiled).damping, damping);
-  EXPECT_EQ(tiled.motion.contacts.damping_work.values(),
-            rows.motion.contacts.damping_work.values());
+/// What dashpots did last is neither lost with them nor counted again: it is what each step says.
+void expect_work_of_dashpots(bool list_at_once) {
+  Simulation sim = testing::prepared(wall_and_falling_block).sim;
+  start(sim, 100.0);
+  double done = account_energy(sim).damping, last = 0.0;
+  const auto go = [&](int steps) {
+    for (int n = 0; n < steps; ++n) {
+      ASSERT_FALSE(step(sim));
+      last = 0.0;
+      for (std::size_t k = 0; k < sim.motion.contacts.size(); ++k) {
+        const FaceFields face = face_row(sim, k).state;
+        last += face.damping_work + face.damping_due;
+      }
+      done += last;
+    }
+  };
+  go(500);
+  change_damping(sim, {}, false);
+  go(1);
+  if (list_at_once) search(sim, sim.motion.contacts.reach);
+  EXPECT_TRUE(sim.motion.contacts.dashpots);
+  EXPECT_GT(last, 1e-6 * done);
+  go(8000);
+  EXPECT_FALSE(sim.motion.contacts.dashpots);
+  put_faces(sim, take_faces(sim));
+  go(10);
+  EXPECT_NEAR(account_energy(sim).damping / done, 1.0, 1e-12);
 }
 TEST(TileStep, WorkOfDashpotsThatAreTakenAwayIsCountedOnce) {
-  compare_without_dashpots(false);
-  compare_without_dashpots(true);
+  expect_work_of_dashpots(false);
+  expect_work_of_dashpots(true);
 }
 TEST(TileStep, BlocksAreDividedAnewWhereTheirNeighboursHaveChanged) {
   Simulation sim = testing::prepared(falling_heap()).sim;
@@ -278,27 +265,27 @@ TEST(TileStep, BlocksAreDividedAnewWhereTheirNeighboursHaveChanged) {
   start(sim, 100.0);
   int divided = 0;
   for (int n = 0; n < 20000; ++n) {
-    ASSERT_FALSE(step_ahead(sim));
-    if (!sim.motion.tiled.loaded) ++divided;
+    const double in_two_tiles = sim.motion.tiled.in_two_tiles;
+    ASSERT_FALSE(step(sim));
+    if (sim.motion.tiled.in_two_tiles != in_two_tiles) ++divided;
   }
   EXPECT_GT(divided, 0);
 }
-TEST(TileStep, GoesOnAsWithRowsWhereBondsFail) {
+TEST(TileStep, FacesFollowWhereBondsFail) {
   std::string text = hit_wall;
   text.replace(text.find("[solver]"), 0, "cohesion = 2e5\ntensile_strength = 1e5\n");
   std::uint64_t broken = 0;
-  compare_with_rows(text, 20000,
-                    [&](Simulation& sim, int) { broken = sim.motion.contacts.broken; });
+  follow(text, 20000, [&](Simulation& sim, int) { broken = sim.motion.contacts.broken; });
   EXPECT_GT(broken, 5u);
 }
-TEST(TileStep, GoesOnAsWithRowsWithBonds) {
+TEST(TileStep, FacesFollowWithBonds) {
   std::string text = falling_heap();
   const std::string bonds = "cohesion = 2e5\ntensile_strength = 1e5\n";
   text.replace(text.find("[solver]"), 0, bonds);
-  EXPECT_GT(compare_with_rows(text, 20000), 100u);
+  EXPECT_GT(follow(text, 20000), 100u);
 }
 /// Joints whose strength and opening depend on slip, also where faces open and close again.
-TEST(TileStep, GoesOnAsWithRowsWithLawsThatDependOnSlip) {
+TEST(TileStep, FacesFollowWithLawsThatDependOnSlip) {
   for (const char* law :
        {"type = \"slip-weakening\"\nfriction_angle = 30\ncohesion = 2e4\nslip_distance = 1e-3\n"
         "residual = { friction_angle = 15 }\ndilation_angle = 5\n",
@@ -307,12 +294,12 @@ TEST(TileStep, GoesOnAsWithRowsWithLawsThatDependOnSlip) {
     for (std::string text : {hit_wall, falling_heap()}) {
       const std::string friction = "friction_angle = 20\n";
       text.replace(text.find(friction), friction.size(), law);
-      EXPECT_GT(compare_with_rows(text, 10000), 20u) << law;
+      EXPECT_GT(follow(text, 10000), 20u) << law;
     }
   }
 }
 /// Faces that come into contact while joints are glued are glued, too.
-TEST(TileStep, GoesOnAsWithRowsWhileJointsAreGlued) {
+TEST(TileStep, FacesFollowWhileJointsAreGlued) {
   std::string text = rock +
                      "[contact]\njoint = \"j\"\n[[block]]\nfixed = true\n"
                      "polygon = [[-9,-1],[9,-1],[9,0],[-9,0]]\n";
@@ -325,10 +312,10 @@ TEST(TileStep, GoesOnAsWithRowsWhileJointsAreGlued) {
             at(0, 0.5) + "]\n";
   }
   std::size_t glued = 0;
-  compare_with_rows(text, 6000, [&](Simulation& sim, int n) {
+  follow(text, 6000, [&](Simulation& sim, int n) {
     if (n == 100) glue_joints(sim, true);
     if (n == 5000) {
-      const FaceSet& c = faces_to_change(sim);
+      const FaceSet& c = sim.motion.contacts;
       for (std::size_t k = 0; k < c.size(); ++k) glued += c.glued[k] > 0.0 ? 1 : 0;
       glue_joints(sim, false);
     }

@@ -32,7 +32,7 @@ FailureMode turned_about(const Simulation& before, Vec2 point, double by) {
   for (std::size_t k = 0; k < 3; ++k) turn(after.motion.state.x[k][1], after.motion.state.y[k][1]);
   for (Id v = before.scene->blocks.vertex_begin[1]; v < before.scene->blocks.vertex_begin[2]; ++v)
     turn(after.motion.pose.x[v], after.motion.pose.y[v]);
-  const Mechanism m = mechanism_of(before, after);
+  const Mechanism m = mechanism_of(before, after, 0.1, before);  // contacts as they were
   EXPECT_EQ(m.blocks.size(), 1u);
   return m.blocks.empty() ? FailureMode::falls : m.blocks[0].motion;
 }

@@ -3,6 +3,7 @@
 
 #include "contacts/acting_oracle.hpp"
 #include "step/step.hpp"
+#include "step/tile_step.hpp"
 #include "verification/random_heap.hpp"
 
 namespace edda {
@@ -19,7 +20,8 @@ inline Acting acting_in(Simulation& sim, std::uint64_t steps, double time = 1.0)
   Acting acting;
   start(sim, time);
   const auto look = [&] {
-    acting.faults.add(oracle.look(sim.motion.contacts, sim.scene->blocks, sim.motion.pose));
+    acting.faults.add(
+        oracle.look(sim.motion.contacts, take_faces(sim), sim.scene->blocks, sim.motion.pose));
   };
   look();
   while (sim.motion.state.steps < steps && sim.motion.state.time < time && acting.failure.empty()) {

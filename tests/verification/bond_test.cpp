@@ -4,6 +4,7 @@
 
 #include "run/prepared.hpp"
 #include "step/energy_balance.hpp"
+#include "step/faces_now.hpp"
 #include "step/step.hpp"
 #include "verification/models.hpp"
 #include "verification/record.hpp"
@@ -189,7 +190,7 @@ TEST(Hanging, TensileStrengthDecides) {
   EXPECT_EQ(bonded_faces(holds), 1u);
   double pull = 0.0;
   for (std::size_t k = 0; k < holds.motion.contacts.size(); ++k) {
-    pull += normal_force(holds.motion.contacts, k);
+    pull += normal_force(face_row(holds, k));
   }
   EXPECT_NEAR(pull, -27.5e3, 30.0);
   Simulation falls = hanging("friction_angle = 30\ntensile_strength = 27e3\ncohesion = 1e5\n");

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <random>
 
+#include "step/contact_resultant.hpp"
 #include "step/energy_balance.hpp"
 #include "verification/record.hpp"
 #include "verification/scene.hpp"
@@ -59,7 +60,7 @@ history_every = 0.001
         path.add({s.motion.state.time, result.path.back().x, result.path.back().y});
       },
       [&](Simulation& s) {
-        const Vec2 now = contact_resultant(s.scene->blocks, s.motion.contacts, 1);
+        const Vec2 now = contact_resultant(s, 1);
         double speed = 0.0;
         for (std::size_t k = 0; k < 3; ++k) {
           speed = std::max(speed, norm(Vec2{s.motion.state.vx[k][1], s.motion.state.vy[k][1]}));

@@ -136,15 +136,18 @@ inline std::vector<Pressing> pressing(const Simulation& sim) {
   const FaceSet& c = sim.motion.contacts;
   std::vector<Pressing> list;
   for (std::size_t k = 0; k < c.size(); ++k) {
-    const double force = normal_force(c, k);
-    if (!is_closed(c, k) || force <= 0.0) continue;
+    const FaceRow row = face_row(sim, k);
+    const FaceFields& m = row.state;
+    const double force = normal_force(row);
+    if (!is_closed(row) || force <= 0.0) continue;
     // The corner that bounds the deeper end lies in the other block.
-    const Vec2 point = deeper_end(c, sim.motion.pose, k);
-    const double xi = c.now.closure_b[k] >= c.now.closure_a[k] ? c.now.xi_b[k] : c.now.xi_a[k];
+    const Vec2 point = deeper_end(face_points(c, sim.motion.pose.x, sim.motion.pose.y, k),
+                                  {m.closure_a, m.closure_b}, {m.xi_a, m.xi_b}, {m.eta_a, m.eta_b});
+    const double xi = m.closure_b >= m.closure_a ? m.xi_b : m.xi_a;
     const bool of_edge = xi == 0.0 || xi == 1.0;
     const Id e = block_of_edge(sim.scene->blocks, c, k),
              f = block_of_facing(sim.scene->blocks, c, k);
-    list.push_back({of_edge ? e : f, of_edge ? f : e, point, closure_of(c, k), force});
+    list.push_back({of_edge ? e : f, of_edge ? f : e, point, closure_of(row), force});
   }
   return list;
 }

@@ -58,9 +58,10 @@ double measured_growth(double phi, double spring, double safety, double duration
   sim.motion.damping.mass = 0.0;
   const auto normal = [&] {
     double largest = 0.0;
-    for (std::size_t k = 0; k < sim.motion.contacts.size(); ++k)
-      largest = std::max(
-          {largest, sim.motion.contacts.now.normal_a[k], sim.motion.contacts.now.normal_b[k]});
+    for (std::size_t k = 0; k < sim.motion.contacts.size(); ++k) {
+      const FaceFields face = face_row(sim, k).state;
+      largest = std::max({largest, face.normal_a, face.normal_b});
+    }
     return largest;
   };
   const double still = normal();

@@ -26,11 +26,12 @@ class HeapWatch {
     const FaceSet& c = s.motion.contacts;
     std::map<std::pair<Id, Id>, Pair> now;
     for (std::size_t k = 0; k < c.size(); ++k) {
-      if (!is_closed(c, k)) continue;
+      const FaceRow row = face_row(s, k);
+      if (!is_closed(row)) continue;
       const Id i = block_of_edge(s.scene->blocks, c, k), j = block_of_facing(s.scene->blocks, c, k);
       Pair& pair = now[std::minmax(i, j)];
-      pair.force += (j < i ? 1.0 : -1.0) * force_on_facing(c, k);
-      const double spring = std::max(c.stiffness[k], c.shear_stiffness[k]) * c.now.length[k];
+      pair.force += (j < i ? 1.0 : -1.0) * force_on_facing(row);
+      const double spring = std::max(c.stiffness[k], c.shear_stiffness[k]) * row.state.length;
       pair.faces.push_back({{c.edge[k], c.edge_end[k]}, {c.facing[k], c.facing_end[k]}, spring});
     }
     if (!x_.empty()) compare(s, now);

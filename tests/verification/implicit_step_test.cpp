@@ -2,8 +2,10 @@
 // list, dashpots, and the three kinds of mass.
 #include <algorithm>
 
+#include "contacts/tile_trials.hpp"
 #include "observe/observe.hpp"
 #include "step/energy_balance.hpp"
+#include "step/faces_now.hpp"
 #include "step/tile_step.hpp"
 #include "verification/models.hpp"
 
@@ -37,11 +39,12 @@ std::string block(double x, double y, double turn, const std::string& more = "")
   return text + "]\n";
 }
 
-/// The faces as the tiles have them.
-FaceSet rows_of(const Simulation& sim) {
-  FaceSet rows = sim.motion.contacts;
-  unload_faces(rows, sim.motion.tiled.tiles, sim.scene->blocks, sim.motion.pose);
-  return rows;
+void expect_same(const std::vector<FaceFields>& is, const std::vector<FaceFields>& was) {
+  ASSERT_EQ(is.size(), was.size());
+  for (std::size_t k = 0; k < is.size(); ++k) {
+    for (const FaceField& field : face_fields)
+      EXPECT_EQ(is[k].*field.value, was[k].*field.value) << field.name << " of face " << k;
+  }
 }
 
 /// An attempt that fails leaves positions, velocities, pose and contacts as they were, bit for bit,
@@ -54,9 +57,10 @@ TEST(ImplicitAttempt, LeavesEverythingAsItWas) {
   run(sim, [](Simulation&) {});
   const State state = sim.motion.state;
   const Pose pose = sim.motion.pose;
-  faces_to_change(sim);  // as by a stage or a checkpoint
-  load_tiles(sim, Begins::at_step_end);
-  const FaceSet c = rows_of(sim);
+  put_faces(sim, take_faces(sim));  // as by a stage or a checkpoint
+  drop_trial(sim.motion.tiled.tiles);
+  const FaceSet c = sim.motion.contacts;
+  const FaceStates was = take_faces(sim);
   const std::vector<double> damping = sim.accounts.damping_work.joules;
   ImplicitSettings settings;
   settings.step = 1e-2;
@@ -74,19 +78,15 @@ TEST(ImplicitAttempt, LeavesEverythingAsItWas) {
   EXPECT_EQ(sim.motion.state.vy, state.vy);
   EXPECT_EQ(sim.motion.pose.x, pose.x);
   EXPECT_EQ(sim.motion.pose.y, pose.y);
-  const auto expect_same = [](const auto& list, const auto& is, const auto& was) {
-    for (const auto& column : list) {
-      EXPECT_EQ((is.*column.values).values(), (was.*column.values).values()) << column.name;
-    }
-  };
-  const FaceSet is = rows_of(sim);
   std::size_t sliding = 0;
-  for (std::size_t k = 0; k < c.size(); ++k) sliding += slides(c, k) ? 1 : 0;
+  for (std::size_t k = 0; k < c.size(); ++k) sliding += slides(face_row(sim, k)) ? 1 : 0;
   EXPECT_GT(sliding, 0u);
-  expect_same(face_properties, is, c);
-  expect_same(face_columns, is.now, c.now);
-  expect_same(face_columns, is.before, c.before);
-  EXPECT_EQ(is.force, c.force);
+  const FaceStates is = take_faces(sim);
+  for (const auto& column : face_properties)
+    EXPECT_EQ((sim.motion.contacts.*column.values).values(), (c.*column.values).values())
+        << column.name;
+  expect_same(is.now, was.now);
+  expect_same(is.before, was.before);
   EXPECT_EQ(sim.accounts.damping_work.joules, damping);
 }
 
@@ -96,8 +96,8 @@ TEST(ImplicitAttempt, ChangesNothingOfTheNextOne) {
     Simulation sim = scene(on_floor(block(0, 0.5, 0.0, "velocity = [1.0, 0.0]\n"),
                                     "method = 'dda'\nduration = 0.1\ntime_step = 1e-3\n"));
     run(sim, [](Simulation&) {});
-    if (taken_out) faces_to_change(sim);
-    load_tiles(sim, Begins::at_step_end);
+    if (taken_out) put_faces(sim, take_faces(sim));
+    drop_trial(sim.motion.tiled.tiles);
     const ImplicitScene at{sim.scene->blocks, sim.motion.masses, sim.motion.laws,
                            sim.attached.springs, sim.scene->model.gravity};
     ImplicitSettings settings;
@@ -117,20 +117,18 @@ TEST(ImplicitAttempt, ChangesNothingOfTheNextOne) {
     EXPECT_EQ(attempt(), Attempt::accepted);
     return sim;
   };
-  const Simulation once = after(false), again = after(true);
+  Simulation once = after(false), again = after(true);
   for (std::size_t k = 0; k < 3; ++k) {
     EXPECT_NEAR(once.motion.state.x[k][1], again.motion.state.x[k][1], 1e-12);
     EXPECT_NEAR(once.motion.state.y[k][1], again.motion.state.y[k][1], 1e-12);
   }
   // Nor do faces that were taken out of their tiles before the step that fails, as by a stage or a
   // checkpoint.
-  const Simulation resumed = after(true, true);
+  Simulation resumed = after(true, true);
   EXPECT_EQ(again.motion.state.x, resumed.motion.state.x);
   EXPECT_EQ(again.implicit.springs.state, resumed.implicit.springs.state);
   EXPECT_EQ(again.implicit.switched, resumed.implicit.switched);
-  const FaceSet was = rows_of(again), is = rows_of(resumed);
-  for (const auto& column : face_columns)
-    EXPECT_EQ((was.now.*column.values).values(), (is.now.*column.values).values()) << column.name;
+  expect_same(take_faces(again).now, take_faces(resumed).now);
   EXPECT_GT(std::count_if(again.implicit.springs.state.begin(), again.implicit.springs.state.end(),
                           [](std::uint8_t state) { return state > 3; }),
             0);
@@ -162,9 +160,8 @@ Bounce bounce(const std::string& method) {
   run(sim, [&](Simulation& s) {
     observe(s, now);
     double normal = 0.0;
-    for (std::size_t k = 0; k < now.contacts.size(); ++k) {
-      normal += normal_force(now.contacts, k);
-    }
+    for (std::size_t k = 0; k < s.motion.contacts.size(); ++k)
+      normal += normal_force(face_row(s, k));
     b.largest = std::max(b.largest, normal);
     b.up = centroid(s.motion.state.vx, s.motion.state.vy, 1).y;
     const EnergyBalance l = account_energy(s);

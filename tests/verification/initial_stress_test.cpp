@@ -4,6 +4,7 @@
 #include "observe/attachment_rows.hpp"
 #include "observe/initial_stress_report.hpp"
 #include "observe/observe.hpp"
+#include "step/contact_resultant.hpp"
 #include "step/energy_balance.hpp"
 #include "verification/models.hpp"
 
@@ -84,7 +85,7 @@ Watched watch(Simulation& sim) {
         keep_largest(s.scene->polygons.blocks[i].slow ? w.in_slivers : w.stress, off / largest);
       }
       if (b.fixed[i]) {
-        sum -= contact_resultant(b, at.contacts, i);
+        sum -= contact_resultant(s, i);
         continue;
       }
       weight += b.mass[i] * gravity;

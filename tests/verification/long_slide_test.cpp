@@ -1,5 +1,6 @@
 // Slides over hundreds of boundaries between pieces: flush, with steps, and in a fault under normal
 // stress.
+#include "step/faces_now.hpp"
 #include "verification/record.hpp"
 #include "verification/scene.hpp"
 
@@ -119,7 +120,7 @@ TEST(LongSlide, APreloadedFaultKeepsItsSqueeze) {
           [&](Simulation& s) {
             double sum = 0.0;
             for (std::size_t k = 0; k < s.motion.contacts.size(); ++k)
-              sum += normal_force(s.motion.contacts, k);
+              sum += normal_force(face_row(s, k));
             keep_largest(off, sum / compression - 1.0);
           });
       const std::string label =

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "step/energy_balance.hpp"
+#include "step/faces_now.hpp"
 #include "step/step.hpp"
 #include "verification/models.hpp"
 
@@ -61,7 +62,7 @@ Slide slide(int row, double alpha, double phi, const std::string& young, double 
     }
     double sum = 0.0;
     for (std::size_t k = 0; k < sim.motion.contacts.size(); ++k)
-      sum += normal_force(sim.motion.contacts, k);
+      sum += normal_force(face_row(sim, k));
     result.largest = std::max(result.largest, sum / normal);
   }
   const double speed = v0.x * std::cos(a) - v0.y * std::sin(a);

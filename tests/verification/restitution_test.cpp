@@ -240,8 +240,9 @@ TEST(Restitution, ForcesStayWithinFriction) {
       [&](Simulation& s) {
         const FaceSet& c = s.motion.contacts;
         for (std::size_t k = 0; k < c.size(); ++k) {
-          const double limit = shear_strength(c, k);
-          over = std::max(over, std::abs(shear_force(c, k)) - limit * (1.0 + 1e-9));
+          const FaceRow face = face_row(s, k);
+          const double limit = shear_strength(face);
+          over = std::max(over, std::abs(shear_force(face)) - limit * (1.0 + 1e-9));
         }
       });
   EXPECT_GT(damping, 100.0);

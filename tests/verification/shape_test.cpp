@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "step/energy_balance.hpp"
+#include "step/faces_now.hpp"
 #include "verification/record.hpp"
 #include "verification/scene.hpp"
 
@@ -30,8 +31,8 @@ TEST(ReentrantCorner, CarriesOnBothSides) {
   int carrying = 0;
   for (std::size_t k = 0; k < sim.motion.contacts.size(); ++k) {
     const bool moved_faces = block_of_facing(sim.scene->blocks, sim.motion.contacts, k) == 1;
-    reaction += (moved_faces ? 1.0 : -1.0) * force_on_facing(sim.motion.contacts, k);
-    if (normal_force(sim.motion.contacts, k) > 1.0) ++carrying;
+    reaction += (moved_faces ? 1.0 : -1.0) * force_on_facing(face_row(sim, k));
+    if (normal_force(face_row(sim, k)) > 1.0) ++carrying;
   }
   EXPECT_NEAR(reaction.x, 2600.0 * 5.0, 5.0);
   EXPECT_NEAR(reaction.y, 2600.0 * 8.0, 5.0);

@@ -1,3 +1,4 @@
+#include "step/faces_now.hpp"
 #include "verification/models.hpp"
 
 namespace edda::sliding_test {
@@ -40,8 +41,7 @@ double press_in_ten_pieces(double alpha, double phi, const std::string& label,
   const double bound = 3e-3 * more_for_friction(alpha, phi);
   const double error = expect_slides(sim, 17, label, alpha, phi, bound, [&](Simulation& s) {
     double sum = 0.0;
-    for (std::size_t k = 0; k < s.motion.contacts.size(); ++k)
-      sum += normal_force(s.motion.contacts, k);
+    for (std::size_t k = 0; k < s.motion.contacts.size(); ++k) sum += normal_force(face_row(s, k));
     pressing.add({s.motion.state.time, sum / weight});
     largest = std::max(largest, sum / weight);
   });

@@ -3,6 +3,7 @@
 #include <map>
 
 #include "observe/observe.hpp"
+#include "step/faces_now.hpp"
 #include "verification/models.hpp"
 #include "verification/settled.hpp"
 
@@ -120,7 +121,7 @@ TEST(LoadPath, FourBlocksInABox) {
                           block_of_facing(sim.scene->blocks, sim.motion.contacts, k));
     const Id j = std::max(block_of_edge(sim.scene->blocks, sim.motion.contacts, k),
                           block_of_facing(sim.scene->blocks, sim.motion.contacts, k));
-    const double force = normal_force(sim.motion.contacts, k);
+    const double force = normal_force(face_row(sim, k));
     if ((i == 4 && j == 7) || (i == 5 && j == 6)) diagonal = std::max(diagonal, std::abs(force));
     if (i >= 4 && force > 0.0) ++carrying[{i, j}];
   }

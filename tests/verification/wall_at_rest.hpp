@@ -70,7 +70,9 @@ inline Equilibrium watch_rest(Simulation& sim, std::uint64_t steps, bool in_equi
   sim.accounts.largest_energy = 0.0;
   while (sim.motion.state.steps < first + steps) {
     const std::uint64_t rebuilds = sim.motion.contacts.rebuilds;
-    closed = sim.motion.contacts.now.energy.values();
+    closed.clear();
+    for (std::size_t k = 0; k < sim.motion.contacts.size(); ++k)
+      closed.push_back(face_row(sim, k).state.energy);
     const auto failure = step(sim);
     if (failure) {
       ADD_FAILURE() << failure->message;
@@ -81,9 +83,9 @@ inline Equilibrium watch_rest(Simulation& sim, std::uint64_t steps, bool in_equi
     if (later) ++found.later_steps;
     if (later && rebuilds == sim.motion.contacts.rebuilds) {
       for (std::size_t k = 0; k < closed.size(); ++k) {
-        const FaceMemory& now = sim.motion.contacts.now;
-        const bool flipped = (closed[k] > 0.0) != (now.energy[k] > 0.0);
-        const double force = normal_force(sim.motion.contacts, k);
+        const FaceRow now = face_row(sim, k);
+        const bool flipped = (closed[k] > 0.0) != (now.state.energy > 0.0);
+        const double force = normal_force(now);
         if (flipped && force > 1e-9 * weight) ++found.flips;
       }
     }

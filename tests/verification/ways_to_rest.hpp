@@ -3,6 +3,7 @@
 
 #include "observe/observe.hpp"
 #include "run/run_model.hpp"
+#include "step/faces_now.hpp"
 #include "verification/record.hpp"
 #include "verification/scene.hpp"
 
@@ -35,18 +36,17 @@ inline constexpr const char* until_equilibrium = "[[stage]]\nuntil = 'equilibriu
 /// Expects that the base carries the weight of the wall.
 inline void expect_weight_carried(const EquilibriumRun& found, double bound) {
   const Simulation& sim = found.run.sim;
-  Instant at;
-  observe(sim, at);
+  const FaceSet& faces = sim.motion.contacts;
   double weight = 0.0, wall_forces = 0.0;
   for (std::size_t i = 0; i < sim.scene->blocks.size(); ++i) {
     if (sim.scene->blocks.fixed[i] == 0) weight += 9.81 * sim.scene->blocks.mass[i];
   }
-  for (std::size_t k = 0; k < at.contacts.size(); ++k) {
-    const Id i = block_of_facing(sim.scene->blocks, at.contacts, k),
-             j = block_of_edge(sim.scene->blocks, at.contacts, k);
+  for (std::size_t k = 0; k < faces.size(); ++k) {
+    const Id i = block_of_facing(sim.scene->blocks, faces, k),
+             j = block_of_edge(sim.scene->blocks, faces, k);
     if (sim.scene->blocks.fixed[i] == sim.scene->blocks.fixed[j]) continue;
     wall_forces +=
-        (sim.scene->blocks.fixed[j] != 0 ? 1.0 : -1.0) * force_on_facing(at.contacts, k).y;
+        (sim.scene->blocks.fixed[j] != 0 ? 1.0 : -1.0) * force_on_facing(face_row(sim, k)).y;
   }
   EXPECT_NEAR(wall_forces / weight, 1.0, bound);
 }
