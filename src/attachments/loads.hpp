@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include "attachments/bolts.hpp"
@@ -53,13 +54,14 @@ struct WetEdge {
 /// Gradual application, in a stage until equilibrium, of all that begins or ends to act at one
 /// time.
 struct GradualChange {
-  double at = -1.0;     ///< s: that time
-  double part = 1.0;    ///< fraction applied; 1: all; below 0 while a model settles (Relaxation)
-  bool weight = false;  ///< gravity is applied gradually, too
-  double least = 0.0;   ///< s: time that it takes at least, where a support is displaced
+  std::optional<double> at;  ///< s: that time; none: strength alone changes (Relaxation)
+  double part = 1.0;         ///< fraction applied; 1: all
+  bool weight = false;       ///< gravity is applied gradually, too
+  double least = 0.0;        ///< s: time that it takes at least, where a support is displaced
   /// Periods of the motion that it takes, times the square root of the factor by which inertia is
   /// raised, where it is; 0: one period in any case.
   double periods = 0.0;
+  double settling = 0.0;  ///< periods of the motion that the model settles before any is applied
 
   /// Whether the weight comes first, in the first half, and supports move on it in the second.
   bool weight_first() const { return weight && least > 0.0; }

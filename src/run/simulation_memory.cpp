@@ -44,6 +44,7 @@ void list_state(Archive& a, Simulation& s) {
   a("equilibrium_ratio", s.relaxation.equilibrium_ratio);
   a("gradual.at", s.attached.loads.gradual.at);
   a("gradual.part", s.attached.loads.gradual.part);
+  a("gradual.settling", s.attached.loads.gradual.settling);
   a("gradual.weight", s.attached.loads.gradual.weight);
   a("gradual.least", s.attached.loads.gradual.least);
   a("gradual.periods", s.attached.loads.gradual.periods);

@@ -117,7 +117,8 @@ std::optional<Fault> install(Simulation& sim, const std::vector<Index>& which) {
   const Pose& pose = sim.motion.pose;
   // The walls have moved since the bolts were drawn.
   constexpr double slack = 0.05;
-  const double energy = total_energy(sim), power = bolt_power(sim);
+  const AsExternalWork work(sim);
+  const double power = bolt_power(sim);
   Result<Bolts> fresh = attach_bolts(model, blocks, sim.motion.state, pose.x, pose.y, which, slack);
   if (!fresh.ok()) return fresh.faults().front();
   add_bolts(bolts, fresh.value(), model, blocks.size());
@@ -125,7 +126,6 @@ std::optional<Fault> install(Simulation& sim, const std::vector<Index>& which) {
   // in which the bolts did not store it.
   bolts.work_pending +=
       sim.stepper->velocity_lag * sim.control.step_before * (bolt_power(sim) - power);
-  sim.accounts.external_work += total_energy(sim) - energy;
   return {};
 }
 
@@ -136,7 +136,7 @@ void switch_over(Simulation& sim, const NamedRows& off, const NamedRows& on) {
   const Pose& pose = sim.motion.pose;
   // A ground that stops being moved must not jolt what stands on it.
   lose_velocity(sim, velocity_of_ground_by(sim, off.shakings));
-  const double energy = total_energy(sim);
+  AsExternalWork work(sim);
   const NodalForces before_it = off.boundaries.empty() ? NodalForces{} : forces_now(sim);
   std::vector<WallForce> wall_forces = release_boundaries(sim, off.boundaries);
   ActiveIntervals& intervals = loads.intervals;
@@ -176,7 +176,7 @@ void switch_over(Simulation& sim, const NamedRows& off, const NamedRows& on) {
   set_all(intervals.shakings, off.shakings, on.shakings, state.time);
   const bool shakes = std::any_of(intervals.shakings.begin(), intervals.shakings.end(),
                                   [](const ActiveInterval& interval) { return interval.acts(); });
-  sim.accounts.external_work += total_energy(sim) - energy;
+  work.end();
   if (!shakes) lose_velocity(sim, sim.attached.ground.velocity);
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <exception>
 #include <limits>
 
 #include "base/parallel.hpp"
@@ -122,6 +123,18 @@ EnergyBalance account_energy(Simulation& sim, const FaceMeasures& faces) {
 
 double total_energy(const Simulation& sim) {
   return energy_balance(sim).balance();
+}
+
+AsExternalWork::AsExternalWork(Simulation& sim)
+    : sim_(sim), energy_(total_energy(sim)), thrown_(std::uncaught_exceptions()) {}
+
+AsExternalWork::~AsExternalWork() noexcept(false) {
+  if (std::uncaught_exceptions() == thrown_) end();
+}
+
+void AsExternalWork::end() {
+  if (!ended_) sim_.accounts.external_work += total_energy(sim_) - energy_;
+  ended_ = true;
 }
 
 }  // namespace edda

@@ -46,6 +46,24 @@ EnergyBalance account_energy(Simulation& sim);
 EnergyBalance account_energy(Simulation& sim, const FaceMeasures& faces);
 /// EnergyBalance::balance(), J.
 double total_energy(const Simulation& sim);
+
+/// Counts what changes from outside, between two steps, as external work: all that the total energy
+/// gains while it exists, or until it is ended.
+class AsExternalWork {
+ public:
+  explicit AsExternalWork(Simulation& sim);
+  ~AsExternalWork() noexcept(false);
+  AsExternalWork(const AsExternalWork&) = delete;
+  AsExternalWork& operator=(const AsExternalWork&) = delete;
+  void end();
+
+ private:
+  Simulation& sim_;
+  double energy_;
+  bool ended_ = false;
+  int thrown_;
+};
+
 /// Reference for the error: the largest scale so far, not less than rounding_energy(), J.
 double energy_scale(const Simulation& sim, const EnergyBalance& energy);
 

@@ -51,11 +51,10 @@ bool set_aside(Simulation& sim, const Failure& failure) {
     all += blocks.area[before.block];
   }
   if (out > most * all) return false;
-  const double energy = total_energy(sim);
+  const AsExternalWork work(sim);
   state.alive[failure.block] = 0;
   store({}, state.vx, state.vy, failure.block);
   search_without_removed(sim);
-  sim.accounts.external_work += total_energy(sim) - energy;
   sim.accounts.set_aside.push_back({failure.block, failure.time, failure.place});
   return true;
 }
@@ -63,7 +62,7 @@ bool set_aside(Simulation& sim, const Failure& failure) {
 void excavate(Simulation& sim, const std::vector<Index>& openings) {
   const BlockSet& blocks = sim.scene->blocks;
   State& state = sim.motion.state;
-  const double energy = total_energy(sim);
+  const AsExternalWork work(sim);
   std::vector<std::uint8_t> goes(blocks.size(), 0);
   std::set<Index> going;  // openings excavated before keep what they have released
   for (std::size_t i = 0; i < blocks.opening.size(); ++i) {
@@ -82,7 +81,6 @@ void excavate(Simulation& sim, const std::vector<Index>& openings) {
     sim.attached.loads.remaining[static_cast<std::size_t>(o)] = {0.0, 1.0, state.time};
   keep(sim, on_walls);
   search_without_removed(sim);
-  sim.accounts.external_work += total_energy(sim) - energy;
 }
 
 void relax(Simulation& sim, Index opening, double part) {

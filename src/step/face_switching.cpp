@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include "base/parallel.hpp"
+#include "contacts/tile_loading.hpp"
+#include "contacts/tile_rows.hpp"
 #include "integrate/leapfrog.hpp"
 
 namespace edda {
@@ -42,18 +44,20 @@ bool any(const CornerForces& f) {
 
 class Correction {
  public:
-  Correction(FaceSet& faces, const StepTaken& taken, FaceSwitchingScratch& scratch,
-             FaceAccess& access)
+  Correction(FaceSet& faces, FaceTiles& tiles, FacesInStep& in_step, const StepTaken& taken,
+             FaceSwitchingScratch& scratch)
       : c_(faces),
+        t_(tiles),
+        in_step_(in_step),
         b_(taken.blocks),
         pose_(taken.pose),
         scratch_(scratch),
-        taken_(taken),
-        access_(access) {
+        taken_(taken) {
     scratch_.moved_at.resize(b_.size(), 0);
     scratch_.first_face.resize(b_.size(), no_id);
     begin_set();
     scratch_.known.clear();
+    scratch_.evaluated.clear();
     scratch_.pushed_by = 0.0;
   }
 
@@ -105,12 +109,17 @@ class Correction {
       pushed.insert(pushed.end(), g.pushed.begin(), g.pushed.end());
     std::sort(pushed.begin(), pushed.end());
     pushed.erase(std::unique(pushed.begin(), pushed.end()), pushed.end());
-    std::vector<Id>& found = scratch_.found;
-    found.clear();
-    access_.evaluate(pushed, scratch_.set, found);
-    std::sort(found.begin(), found.end());  // a face of two pushed blocks is in there twice
-    found.erase(std::unique(found.begin(), found.end()), found.end());
-    return find(found);
+    std::vector<Id> faces;
+    for (const Id i : pushed) {
+      c_.for_faces(b_.vertex_begin[i], b_.vertex_begin[i + 1], [&](Id k, bool) {
+        if (in_step_.takes_part(scratch_.pushed_by, k)) faces.push_back(k);
+      });
+    }
+    std::sort(faces.begin(), faces.end());  // a face of two pushed blocks is in there twice
+    faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
+    evaluate_again(faces);
+    std::erase_if(faces, [&](Id k) { return !t_.has_found(lane_bits::switching, k); });
+    return find(faces);
   }
 
   bool has_converged() const {
@@ -129,11 +138,30 @@ class Correction {
       c_.transfer[f.face] += f.stored + f.risen_by - stored_next - f.alpha * work(f);
     };
     parallel_for(scratch_.set.size(), book_face, cost_of_a_face / 4);
-    access_.finish(scratch_.set);
+    std::vector<Id> faces;
+    for (const SwitchingFace& f : scratch_.set) {
+      faces.push_back(f.face);
+      load_correction(t_, c_, f.before, f.face);
+    }
+    std::sort(faces.begin(), faces.end());
+    evaluate_again(faces);
+    in_step_.gather(scratch_.evaluated);
   }
 
  private:
   static constexpr std::size_t cost_of_a_face = 4000 / seldom;  // ns, with some passes
+
+  /// Evaluates these faces at the present positions, with what is decided of them there.
+  void evaluate_again(const std::vector<Id>& faces) {
+    scratch_.evaluated.insert(scratch_.evaluated.end(), faces.begin(), faces.end());
+    in_step_.evaluate(faces, scratch_.pushed_by);
+    const StateAtN corrected = [&](Id k) -> const FaceFields* {
+      const auto known = std::find_if(scratch_.set.begin(), scratch_.set.end(),
+                                      [k](const SwitchingFace& f) { return f.face == k; });
+      return known == scratch_.set.end() ? nullptr : &known->before;
+    };
+    in_step_.evaluate(in_step_.decide(faces, corrected), scratch_.pushed_by);
+  }
 
   /// Empties the set. In the first step of a run every face may close, and in none that follows.
   void begin_set() {
@@ -204,9 +232,10 @@ class Correction {
   /// Completes f where the face stored energy at n, and opens or closes in this step or did so in
   /// the last; elsewhere f.face becomes no_id.
   void add_if_it_switches(SwitchingFace& f) {
-    const FaceFields before = access_.before(f.face);
+    recall_work(c_, t_, f.face);
+    const FaceFields before = remembered(t_, f.face);
     if (before.energy > 0.0 && c_.carries_tension[f.face] == 0.0 &&
-        (before.switched > 0.0 || access_.switches(f.face)))
+        (before.switched > 0.0 || t_.remembers(lane_bits::switched, f.face)))
       return complete(f, before);
     f.face = no_id;
   }
@@ -279,19 +308,20 @@ class Correction {
   }
 
   FaceSet& c_;
+  FaceTiles& t_;
+  FacesInStep& in_step_;
   const BlockSet& b_;
   const Pose& pose_;
   FaceSwitchingScratch& scratch_;
   const StepTaken& taken_;
-  FaceAccess& access_;
 };
 
 }  // namespace
 
-void correct_switching(FaceSet& c, const StepTaken& taken, OpenCloseCounts& counts,
-                       FaceSwitchingScratch& scratch, const std::vector<Id>& switching,
-                       FaceAccess& access) {
-  Correction correction(c, taken, scratch, access);
+void correct_switching(FaceSet& c, FaceTiles& tiles, FacesInStep& in_step, const StepTaken& taken,
+                       OpenCloseCounts& counts, FaceSwitchingScratch& scratch,
+                       const std::vector<Id>& switching) {
+  Correction correction(c, tiles, in_step, taken, scratch);
   if (!correction.find(switching)) return;
   std::uint64_t passes = 0;
   do {

@@ -8,8 +8,8 @@
 
 #include "blocks/pose.hpp"
 #include "blocks/state.hpp"
-#include "contacts/evaluate_face.hpp"
 #include "contacts/face_energy.hpp"
+#include "contacts/tiled_faces.hpp"
 #include "step/push_block.hpp"
 
 namespace edda {
@@ -69,7 +69,7 @@ struct FaceSwitchingScratch {
   std::vector<SwitchingFace> set;
   std::vector<Id> known;               ///< the faces of the set, ascending
   std::vector<SwitchingGroup> groups;  ///< since the set was last divided
-  std::vector<Id> found;               ///< faces that may switch since blocks were pushed
+  std::vector<Id> evaluated;           ///< faces evaluated again since blocks were pushed
   std::vector<std::uint64_t>
       moved_at;  ///< [nb] SwitchingGroup::corrections when a face last moved the block
   std::vector<Id> first_face;  ///< [nb] working memory: no_id everywhere between uses
@@ -78,29 +78,11 @@ struct FaceSwitchingScratch {
   Vec2 on_fixed;           ///< N: change of the forces on fixed blocks
 };
 
-/// The faces, wherever their state is kept. switches() and before() are called for several faces
-/// at once.
-class FaceAccess {
- public:
-  virtual ~FaceAccess() = default;
-  /// Whether an end of face k opens or closes in the step to n + 1.
-  virtual bool switches(Id k) const = 0;
-  /// The state of face k at n. Brings its accumulated work up to date, for as long as the
-  /// correction lasts.
-  virtual FaceFields before(Id k) = 0;
-  /// Evaluates the faces of these blocks, which have been pushed, and appends those that may
-  /// switch. corrected: faces of which the state at n has changed.
-  virtual void evaluate(const std::vector<Id>& blocks, const std::vector<SwitchingFace>& corrected,
-                        std::vector<Id>& switching) = 0;
-  /// Evaluates the corrected faces at their final positions.
-  virtual void finish(const std::vector<SwitchingFace>& corrected) = 0;
-};
-
 /// On entry: positions and faces of step n + 1, made with the whole forces of step n. On return
-/// both are final, and `before` of the faces holds the forces that acted at n. switching: the faces
-/// that may switch, ascending.
-void correct_switching(FaceSet& faces, const StepTaken& taken, OpenCloseCounts& counts,
-                       FaceSwitchingScratch& scratch, const std::vector<Id>& switching,
-                       FaceAccess& access);
+/// both are final, and the tiles remember of n the forces that acted. switching: the faces that may
+/// switch, ascending.
+void correct_switching(FaceSet& faces, FaceTiles& tiles, FacesInStep& in_step,
+                       const StepTaken& taken, OpenCloseCounts& counts,
+                       FaceSwitchingScratch& scratch, const std::vector<Id>& switching);
 
 }  // namespace edda

@@ -236,9 +236,9 @@ void let_open(Simulation& sim) {
 
 /// Increases what is applied gradually, in proportion to the frequency estimate: all of it within
 /// one period, more slowly where inertia has been raised, since such blocks follow more slowly than
-/// their neighbours. After the loads the model settles (`part` is below 0 meanwhile) before joints
-/// that hold come down to their strength: one period after the first loads; until it is in balance
-/// where bonds hold, since what has parted comes down slowly, against the damping.
+/// their neighbours. After the loads the model settles before joints that hold come down to their
+/// strength: for one period after the first loads; until it is in balance where bonds hold, since
+/// what has parted comes down slowly, against the damping.
 void advance_gradual_change(Simulation& sim) {
   Relaxation& relaxation = sim.relaxation;
   if (gradual_change_complete(sim)) return;
@@ -249,26 +249,36 @@ void advance_gradual_change(Simulation& sim) {
       relaxation.estimate.frequency > 0.0 ? relaxation.estimate.clock() : wave_frequency(sim);
   GradualChange& gradual = sim.attached.loads.gradual;
   const double before = gradual.part;
+  const bool settled = gradual.settling == 0.0;
   const bool loading = relaxation.hold == Relaxation::Hold::loading;
   const double raised = gradual.periods > 0.0 ? raised_inertia(sim) : 1.0;
   const double periods = raised > 1.0 ? gradual.periods * std::sqrt(raised) : 1.0;
   const double period = 2.0 * std::numbers::pi * periods / frequency;
   const bool with_bonds = sim.motion.contacts.bond_strength > 1.0;
-  const double slower = with_bonds && before >= 0.0 && !loading ? slower_with_bonds : 1.0;
-  gradual.part += sim.motion.state.step / std::max(slower * period, gradual.least);
-  if ((with_bonds || relaxation.holds_together) && before < 0.0 && relaxation.balanced)
-    gradual.part = std::max(gradual.part, 0.0);
-  if (before < 0.0 && gradual.part >= 0.0 && relaxation.holds_together) {
-    let_open(sim);
-    relaxation.balanced = false;
-    gradual.part = with_bonds ? -at_most : -settling;
-    return;
+  const double slower = with_bonds && settled && !loading ? slower_with_bonds : 1.0;
+  const double more = sim.motion.state.step / std::max(slower * period, gradual.least);
+  if (settled) {
+    gradual.part += more;
+  } else {
+    const bool may_end = (with_bonds || relaxation.holds_together) && relaxation.balanced;
+    gradual.settling -= more;
+    if (may_end) gradual.settling = std::min(gradual.settling, 0.0);
+    if (gradual.settling > 0.0) return;
+    if (relaxation.holds_together) {
+      let_open(sim);
+      relaxation.balanced = false;
+      gradual.settling = with_bonds ? at_most : settling;
+      return;
+    }
+    gradual.part = 0.0 - gradual.settling;
+    gradual.settling = 0.0;
+    relaxation.estimate.least = 0.5 * frequency;
   }
   const bool strength = !relaxation.strength_to.empty() && !loading;
-  if (before < 0.0 && gradual.part >= 0.0) relaxation.estimate.least = 0.5 * frequency;
   if (gradual.part >= 1.0 && loading) {
-    constexpr double no_time = std::numeric_limits<double>::quiet_NaN();  // nothing else began then
-    gradual = {no_time, with_bonds || relaxation.holds_together ? -at_most : -settling, false, 0.0};
+    gradual = {};
+    gradual.part = 0.0;
+    gradual.settling = with_bonds || relaxation.holds_together ? at_most : settling;
     relaxation.balanced = false;
     relaxation.hold = Relaxation::Hold::settling;
     relaxation.estimate.least = 0.05 * frequency;  // also where all that moves falls
@@ -278,7 +288,8 @@ void advance_gradual_change(Simulation& sim) {
     if (strength) change_strength(sim, 1.0);
     sim.motion.contacts.bond_strength = 1.0;
   } else if (strength && gradual.part > 0.0 &&
-             std::floor(increments * gradual.part) > std::floor(increments * before)) {
+             (!settled ||
+              std::floor(increments * gradual.part) > std::floor(increments * before))) {
     change_strength(sim, gradual.part);
   }
 }
@@ -365,7 +376,7 @@ void end_hold(Simulation& sim) {
   sim.relaxation.hold = Relaxation::Hold::over;
   let_open(sim);
   sim.motion.contacts.bond_strength = 1.0;
-  if (sim.attached.loads.gradual.part < 0.0) sim.attached.loads.gradual = {};
+  if (sim.attached.loads.gradual.settling > 0.0) sim.attached.loads.gradual = {};
   set_strength_factors(sim, sim.relaxation.strength_to);
   sim.relaxation.strength_from.clear();
   sim.relaxation.strength_to.clear();

@@ -8,7 +8,6 @@
 #include "contacts/face_bonds.hpp"
 #include "contacts/find_faces.hpp"
 #include "contacts/tile_decisions.hpp"
-#include "contacts/tile_loading.hpp"
 #include "contacts/tile_renewal.hpp"
 #include "contacts/tile_rows.hpp"
 #include "step/contact_search.hpp"
@@ -28,71 +27,6 @@ FacesInStep faces_in_step(Simulation& sim, double step) {
           sim.control.last_displacement,
           {motion.on_contacts.x, motion.on_contacts.y, motion.on_contacts.modes}};
 }
-
-/// The faces in tiles, as the correction of switching reads them.
-class FacesInTiles : public FaceAccess {
- public:
-  explicit FacesInTiles(Simulation& sim)
-      : faces_(sim.motion.contacts),
-        tiles_(sim.motion.tiled.tiles),
-        blocks_(sim.scene->blocks),
-        pushed_by_(sim.leapfrog.switching.pushed_by),
-        in_step_(faces_in_step(sim, sim.motion.state.step)) {}
-
-  bool switches(Id k) const override { return tiles_.remembers(lane_bits::switched, k); }
-  FaceFields before(Id k) override {
-    recall_work(faces_, tiles_, k);
-    return remembered(tiles_, k);
-  }
-
-  void evaluate(const std::vector<Id>& blocks, const std::vector<SwitchingFace>& corrected,
-                std::vector<Id>& switching) override {
-    const std::size_t known = changed_.size();
-    for (const Id i : blocks) {
-      faces_.for_faces(blocks_.vertex_begin[i], blocks_.vertex_begin[i + 1], [&](Id k, bool) {
-        if (in_step_.takes_part(pushed_by_, k)) changed_.push_back(k);
-      });
-    }
-    std::vector<Id> faces(changed_.begin() + static_cast<std::ptrdiff_t>(known), changed_.end());
-    std::sort(faces.begin(), faces.end());
-    faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
-    evaluate_again(faces, corrected);
-    for (const Id k : faces) {
-      if (tiles_.has_found(lane_bits::switching, k)) switching.push_back(k);
-    }
-  }
-
-  void finish(const std::vector<SwitchingFace>& corrected) override {
-    std::vector<Id> faces;
-    for (const SwitchingFace& f : corrected) {
-      faces.push_back(f.face);
-      load_correction(tiles_, faces_, f.before, f.face);
-    }
-    std::sort(faces.begin(), faces.end());
-    evaluate_again(faces, corrected);
-    changed_.insert(changed_.end(), faces.begin(), faces.end());
-    in_step_.gather(changed_);
-  }
-
- private:
-  /// With what is decided of them then.
-  void evaluate_again(const std::vector<Id>& faces, const std::vector<SwitchingFace>& corrected) {
-    in_step_.evaluate(faces, pushed_by_);
-    const StateAtN ahead = [&](Id k) -> const FaceFields* {
-      const auto known = std::find_if(corrected.begin(), corrected.end(),
-                                      [k](const SwitchingFace& f) { return f.face == k; });
-      return known == corrected.end() ? nullptr : &known->before;
-    };
-    in_step_.evaluate(in_step_.decide(faces, ahead), pushed_by_);
-  }
-
-  FaceSet& faces_;
-  FaceTiles& tiles_;
-  const BlockSet& blocks_;
-  const double& pushed_by_;  ///< grows with the corrections
-  FacesInStep in_step_;
-  std::vector<Id> changed_;
-};
 
 }  // namespace
 
@@ -153,13 +87,12 @@ void evaluate_at_rest(Simulation& sim, double step) {
 
 void switch_in_tiles(Simulation& sim, const StepTaken& taken) {
   TiledFaces& own = sim.motion.tiled;
-  const std::vector<Id> switching = faces_in_step(sim, sim.motion.state.step)
-                                        .found(lane_bits::switching, &SweepResult::switching);
+  FacesInStep in_step = faces_in_step(sim, sim.motion.state.step);
+  const std::vector<Id> switching = in_step.found(lane_bits::switching, &SweepResult::switching);
   if (switching.empty()) return;
-  FacesInTiles access(sim);
   own.corrects = true;
-  correct_switching(sim.motion.contacts, taken, sim.accounts.open_close, sim.leapfrog.switching,
-                    switching, access);
+  correct_switching(sim.motion.contacts, own.tiles, in_step, taken, sim.accounts.open_close,
+                    sim.leapfrog.switching, switching);
   own.corrects = false;
   own.pushed = sim.leapfrog.switching.pushed_by;
 }

@@ -26,7 +26,7 @@ void change_velocities(Simulation& sim, const Nodes& vx, const Nodes& vy, const 
   State& state = sim.motion.state;
   Pose& pose = sim.motion.pose;
   const StepControl& control = sim.control;
-  const double energy = total_energy(sim);
+  const AsExternalWork work(sim);
   const bool leaps = sim.stepper->velocity_lag > 0.0;
   // The last step is taken to have been made with the new velocities, which changes closures and
   // slips before it. Chains of bolts are not changed back; their forces will do F_n . (u'_n -
@@ -49,7 +49,6 @@ void change_velocities(Simulation& sim, const Nodes& vx, const Nodes& vy, const 
     sum_face_forces(sim);
     sim.attached.bolts.work_pending += 0.5 * control.step_before * (bolt_power(sim) - bolts_before);
   }
-  sim.accounts.external_work += total_energy(sim) - energy;
 }
 
 void lose_velocity(Simulation& sim, Vec2 v) {
@@ -58,7 +57,7 @@ void lose_velocity(Simulation& sim, Vec2 v) {
   const FaceStates faces = take_faces(sim);
   State& state = sim.motion.state;
   Pose& pose = sim.motion.pose;
-  const double energy = total_energy(sim);
+  const AsExternalWork work(sim);
   const bool leaps = sim.stepper->velocity_lag > 0.0;
   const Vec2 last = leaps ? sim.control.step_before * v : Vec2{};
   for (std::size_t i = 0; i < sim.scene->blocks.size(); ++i) {
@@ -75,7 +74,6 @@ void lose_velocity(Simulation& sim, Vec2 v) {
   ground.shift_1 += last;
   ground.velocity -= v;
   put_faces(sim, faces);
-  sim.accounts.external_work += total_energy(sim) - energy;
 }
 
 }  // namespace edda
