@@ -45,6 +45,8 @@ struct BlockSet {
   std::vector<Id> vertex_block;     ///< [nv] block of each vertex
   std::vector<Id> next, previous;   ///< [nv] neighbours along the ring
   std::vector<Index> edge_joint;    ///< [nv] law named by edge v, or none
+  std::vector<Index> edge_table;    ///< [nv] row of `tables`, or none
+  std::vector<std::string> tables;  ///< of the model, from which lines come (PolygonSet)
   std::vector<double> edge_length;  ///< [nv] at the start, m
   /// [nv] Height of the block over the edge at the start, over its Young's modulus, m/Pa.
   std::vector<double> compliance;
@@ -87,6 +89,12 @@ struct BlockSet {
   std::string_view name(std::size_t i) const {
     const auto found = names.find(static_cast<Id>(i));
     return found == names.end() ? std::string_view{} : found->second;
+  }
+  /// The table from which the line of two edges comes that lie along each other; of edge e, if it
+  /// comes from any; may be empty.
+  std::string_view table_of(Id e, Id f) const {
+    const Index row = edge_table[e] != none ? edge_table[e] : edge_table[f];
+    return row == none ? std::string_view{} : tables[static_cast<std::size_t>(row)];
   }
 };
 

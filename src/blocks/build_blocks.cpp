@@ -79,6 +79,7 @@ void add_vertices(BlockSet& b, const BlockPolygon& polygon, double young, const 
       b.next.push_back(first + (i + 1) % n);
       b.previous.push_back(first + (i + n - 1) % n);
       b.edge_joint.push_back(polygon.joint[r][i]);
+      b.edge_table.push_back(polygon.table.empty() ? none : polygon.table[r][i]);
       b.edge_length.push_back(norm(after - p));
       b.compliance.push_back(height_over(polygon.rings[0], p, after - p) / young);
       b.corner.push_back(interior_angle(before, p, after));
@@ -152,6 +153,7 @@ void reserve(BlockSet& b, const std::vector<BlockPolygon>& polygons) {
     values->reserve(nv);
   for (auto* ids : {&b.vertex_block, &b.next, &b.previous}) ids->reserve(nv);
   b.edge_joint.reserve(nv);
+  b.edge_table.reserve(nv);
 }
 
 }  // namespace
@@ -170,6 +172,7 @@ bool may_bend(const Model& model, const BlockPolygon& block) {
 BlockSet build_blocks(const Model& model, const PolygonSet& polygons) {
   BlockSet b;
   b.origin = polygons.origin;
+  b.tables = polygons.tables;
   b.thickness = model.thickness;
   b.mass_kind = model.solver.mass;
   reserve(b, polygons.blocks);

@@ -120,6 +120,7 @@ Result<PolygonSet> add_cut_blocks(const Model& model, const Imports& imports, bo
   if (!cut.ok()) return cut.faults();
   append(set.blocks, std::move(cut.value().blocks));
   set.removed = std::move(cut.value().removed);
+  set.tables = std::move(cut.value().tables);
   set.report = cut.value().report;
   Faults faults = too_many_corners(set.blocks, first_cut);
   if (faults.empty()) faults = fix_blocks(model, snap_of(model), first_cut, set);

@@ -342,6 +342,7 @@ Result<DomainCut> cut_domain(const Model& model, Vec2 origin, const Imports& imp
   if (framed) area_in = rock_in(a);
 
   DomainCut cut;
+  for (const LineSource& source : work.sources) cut.tables.push_back(table_of(model, source));
   cut.report = a.report;
   cut.report.area_in = *area_in;
   report_lines(model, imports, a, work, framed, joined, inside, cut.report);

@@ -13,6 +13,7 @@ namespace edda {
 struct DomainCut {
   std::vector<BlockPolygon> blocks;   ///< rock, by centroid (y, then x); m, local
   std::vector<BlockPolygon> removed;  ///< rock inside openings, likewise
+  std::vector<std::string> tables;    ///< PolygonSet::tables
   CutReport report;                   ///< all but the smallest_* members
 };
 

@@ -190,12 +190,17 @@ BlockPolygon face_polygon(const PlanarGraph& graph, const Faces& faces, int face
   BlockPolygon block;
   for (const Walk& walk : walks_of(graph, faces, face)) {
     Ring ring = ring_of(graph, walk);
-    std::vector<Index> law;
-    law.reserve(walk.size());
-    for (int h : walk) law.push_back(sources[at(graph.edge[at(h / 2)].source)].joint);
-    remove_straight_runs(ring, law, tolerance);
+    std::vector<Index> law, table;
+    for (int h : walk) {
+      const Index row = graph.edge[at(h / 2)].source;
+      const LineSource& source = sources[at(row)];
+      law.push_back(source.joint);
+      table.push_back(source.kind == LineKind::outline ? none : row);
+    }
+    remove_straight_runs(ring, law, tolerance, &table);
     block.rings.push_back(std::move(ring));
     block.joint.push_back(std::move(law));
+    block.table.push_back(std::move(table));
   }
   return block;
 }

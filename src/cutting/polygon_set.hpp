@@ -17,6 +17,9 @@ struct BlockPolygon {
   std::vector<std::vector<Index>>
       joint;  ///< joint[r][e]: law of the edge from rings[r][e] to the next
               ///< vertex; none where none is named (contact.joint applies)
+  std::vector<std::vector<Index>>
+      table;  ///< table[r][e]: row of PolygonSet::tables, from which
+              ///< the line of that edge comes, or none, as of the outline; empty: all none
   Index material = none;
   bool fixed = false;             ///< it does not move
   Vec2 velocity;                  ///< of the centroid at the start, m/s
@@ -74,6 +77,8 @@ struct PolygonSet {
   std::vector<BlockPolygon> blocks;  ///< local coordinates
   std::vector<BlockPolygon>
       removed;  ///< rock cut inside openings, ordered like cut blocks; not in `blocks`
+  std::vector<std::string> tables;  ///< of the model, from which the lines come that cut blocks:
+                                    ///< "joint_set.bedding"
   CutReport report;
   bool reversed = false;  ///< the order of the blocks is reversed (for verification)
 };

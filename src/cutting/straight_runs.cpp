@@ -128,7 +128,8 @@ void drop_needless(const Ring& ring, const std::vector<std::uint8_t>& corner,
 
 }  // namespace
 
-void remove_straight_runs(Ring& ring, std::vector<Index>& law, double tolerance) {
+void remove_straight_runs(Ring& ring, std::vector<Index>& law, double tolerance,
+                          std::vector<Index>* table) {
   if (ring.size() <= 3) return;
   const std::vector<std::uint8_t> corner = corners(ring, law);
   if (!anything_straight(ring, corner, tolerance) || is_thin(ring, tolerance)) return;
@@ -136,15 +137,16 @@ void remove_straight_runs(Ring& ring, std::vector<Index>& law, double tolerance)
   split_runs(ring, kept, tolerance);
   drop_needless(ring, corner, kept, tolerance);
   if (std::count(kept.begin(), kept.end(), std::uint8_t{1}) < 3) return;
-  Ring slim;
-  std::vector<Index> slim_law;
-  for (std::size_t i = 0; i < ring.size(); ++i) {
-    if (!kept[i]) continue;
-    slim.push_back(ring[i]);
-    slim_law.push_back(law[i]);
-  }
-  ring = std::move(slim);
-  law = std::move(slim_law);
+  const auto keep = [&](auto& values) {
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < kept.size(); ++i) {
+      if (kept[i]) values[count++] = values[i];
+    }
+    values.resize(count);
+  };
+  keep(ring);
+  keep(law);
+  if (table != nullptr) keep(*table);
 }
 
 }  // namespace edda

@@ -197,15 +197,17 @@ void add_t_nodes(PolygonSet& set, double tolerance, std::size_t most,
     auto edge = edges.begin();
     for (std::size_t r = 0; r < block.rings.size(); ++r) {
       Ring ring;
-      std::vector<Index> joint;
-      for (const Index law : block.joint[r]) {
+      std::vector<Index> joint, table;
+      for (std::size_t e = 0; e < block.joint[r].size(); ++e, ++edge) {
+        const std::size_t parts = 1 + edge->nodes.size();
         ring.push_back(edge->from);
         for (const Node& node : edge->nodes) ring.push_back(node.at);
-        joint.insert(joint.end(), 1 + edge->nodes.size(), law);
-        ++edge;
+        joint.insert(joint.end(), parts, block.joint[r][e]);
+        if (!block.table.empty()) table.insert(table.end(), parts, block.table[r][e]);
       }
       block.rings[r] = std::move(ring);
       block.joint[r] = std::move(joint);
+      if (!block.table.empty()) block.table[r] = std::move(table);
     }
   }
 }

@@ -69,6 +69,9 @@ constexpr std::array joints{
     C{"normal_stress_b", "Pa", "Normal stress at end b, positive in compression."},
     C{"shear_stress", "Pa",
       "Shear force over the area of the whole overlap, with the sign of shear_force."},
+    C{"table", "text",
+      "Table of the model from which the line of the joint comes, as joint_set.bedding or "
+      "trace.0; empty for blocks that are given as such."},
 };
 
 constexpr std::array fos{
@@ -111,6 +114,9 @@ constexpr std::array mechanism_joints{
     C{"turning", "m",
       "Rotation of the two blocks against each other times the length of the joint."},
     C{"motion", "text", "Kind of motion: slips, opens or hinges."},
+    C{"table", "text",
+      "Table of the model from which the line of that contact comes, as joint_set.bedding or "
+      "trace.0; empty for blocks that are given as such."},
 };
 
 constexpr std::array key_blocks{
@@ -178,6 +184,9 @@ constexpr std::array limit_joints{
     C{"ay", "m", "Coordinate y of end a."},
     C{"bx", "m", "Coordinate x of end b; the same point as a where a corner leans on an edge."},
     C{"by", "m", "Coordinate y of end b."},
+    C{"table", "text",
+      "Table of the model from which the line of the joint comes, as joint_set.bedding or "
+      "trace.0; empty for blocks that are given as such."},
 };
 
 constexpr std::array columns{
@@ -196,6 +205,9 @@ constexpr std::array cut{
     C{"joint", "text",
       "Law of the edge from this corner to the next; empty where the model names none, so that "
       "contact.joint holds."},
+    C{"table", "text",
+      "Table of the model from which the line of the edge comes, as joint_set.bedding or "
+      "trace.0; empty for blocks that are given as such."},
 };
 
 constexpr std::array<ResultTable, 17> tables{{

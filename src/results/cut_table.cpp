@@ -12,6 +12,12 @@ std::string joint_name(const Model& model, Index joint) {
   return k < model.joints.size() ? model.joints[k].name : "glued";
 }
 
+std::string table_name(const PolygonSet& polygons, const BlockPolygon& b, std::size_t ring,
+                       std::size_t edge) {
+  const Index row = b.table.empty() ? none : b.table[ring][edge];
+  return row == none ? "" : polygons.tables[static_cast<std::size_t>(row)];
+}
+
 }  // namespace
 
 Trouble write_cut_csv(const std::string& path, const PolygonSet& polygons, const Model& model) {
@@ -29,6 +35,7 @@ Trouble write_cut_csv(const std::string& path, const PolygonSet& polygons, const
             .add(p.x)
             .add(p.y)
             .add(joint_name(model, b.joint[r][k]))
+            .add(table_name(polygons, b, r, k))
             .end();
       }
     }

@@ -34,6 +34,7 @@ enum class ContactState : std::int32_t { open = 0, stick = 1, slide = 2, bonded 
 struct ContactRecord {
   std::uint32_t block_i = 0, block_j = 0;
   std::string_view joint;     ///< its law
+  std::string_view table;     ///< of the joint set, trace ... on which its edges lie; may be empty
   Vec2 position;              ///< middle of the overlap, m
   Vec2 displacement;          ///< of block i there since the start, m
   Vec2 force;                 ///< on block i, N

@@ -30,7 +30,7 @@ Trouble write_joints_csv(const std::string& path, std::span<const ContactRecord>
     csv.add(int{c.ever_slipped}).add(int{c.ever_opened}).add(c.mobilised);
     csv.add(c.length).add(c.closed_length).add(c.a.x).add(c.a.y).add(c.b.x).add(c.b.y);
     csv.add(c.normal_stress).add(c.normal_stress_a).add(c.normal_stress_b);
-    csv.add(c.shear_stress).end();
+    csv.add(c.shear_stress).add(c.table).end();
   });
 }
 

@@ -95,6 +95,8 @@ std::vector<ContactRecord> thrust(const Simulation& sim, const RigidBlocks& rigi
     c.joint = joint.law < sim.scene->model.joints.size()
                   ? std::string_view(sim.scene->model.joints[joint.law].name)
                   : std::string_view("glued");
+    const FaceSet& faces = sim.motion.contacts;
+    c.table = sim.scene->blocks.table_of(faces.edge[joint.face], faces.facing[joint.face]);
     c.a = joint.ends[0] + origin;
     c.b = joint.ends[1] + origin;
     const double part = f.whole() != 0.0 ? f.normal[1] / f.whole() : 0.5;

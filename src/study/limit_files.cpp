@@ -46,7 +46,7 @@ std::string limit_joints_csv(const LimitResult& r) {
   for (const ContactRecord& c : r.forces) {
     csv.add(c.block_i).add(c.block_j).add(c.joint).add(c.position.x).add(c.position.y);
     csv.add(c.normal_force).add(c.shear_force).add(c.force.x).add(c.force.y).add(c.mobilised);
-    csv.add(c.a.x).add(c.a.y).add(c.b.x).add(c.b.y).end();
+    csv.add(c.a.x).add(c.a.y).add(c.b.x).add(c.b.y).add(c.table).end();
   }
   return csv.text();
 }

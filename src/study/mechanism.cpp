@@ -307,7 +307,7 @@ std::string mechanism_joints_csv(const Mechanism& mechanism) {
   Csv csv = begin_table(ResultFile::mechanism_joints);
   for (const MovingJoint& j : mechanism.joints) {
     csv.add(j.block_i).add(j.block_j).add(j.joint).add(j.place.x).add(j.place.y);
-    csv.add(j.slip).add(j.opening).add(j.turning).add(motion_name(j.motion)).end();
+    csv.add(j.slip).add(j.opening).add(j.turning).add(motion_name(j.motion)).add(j.table).end();
   }
   return csv.text();
 }

@@ -52,6 +52,7 @@ struct MovingJoint {
   std::string joint;
   std::uint16_t law = 0;           ///< row of the law table
   Vec2 place;                      ///< m, at the contact that moves most
+  std::string table;               ///< BlockSet::table_of() of that contact
   std::vector<Stretch> stretches;  ///< the parts along which the two blocks lie against each other
                                    ///< and move
   double slip = 0.0;               ///< m, largest along the joint, in either direction

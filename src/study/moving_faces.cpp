@@ -80,6 +80,7 @@ void collect_joints(SeenJoints& joints, const Simulation& before, const Simulati
       if (end.apart > near) continue;
       if (std::max(end.slip, end.opening) >= std::max(joint.slip, joint.opening)) {
         joint.place = end.place;
+        joint.table = b.table_of(f.edge[k], f.facing[k]);
       }
       joint.slip = std::max(joint.slip, end.slip);
       joint.opening = std::max(joint.opening, end.opening);

@@ -182,6 +182,8 @@ class Geometry(Program):
         self.assertGreater(len(mixed), 20)
         self.assertEqual({c["joint"] for c in mixed}, {"bedding"})
         self.assertEqual({c["joint"] for c in contacts if c not in mixed}, {"rough"})
+        tables = {c["table"] for c in contacts}
+        self.assertEqual({t.split(".")[0] for t in tables}, {"joint_set", "region"})
 
     def test_arch(self):
         blocks, _, _ = self.through_all(ARCH)

@@ -1,9 +1,13 @@
 // Which law an edge gets where lines coincide, and where vertices on straight sides go.
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <numbers>
+
 #include "cutting/checks.hpp"
 #include "cutting/line_models.hpp"
 #include "cutting/straight_runs.hpp"
+#include "model/read_model.hpp"
 
 namespace edda::laws_test {
 namespace {
@@ -133,6 +137,67 @@ TEST(StraightRuns, KeepCurvesWithinTheTolerance) {
   }
 }
 
+/// An edge knows the table from which its line comes, and lies along it.
+TEST(Tables, AreThoseOfTheLinesOfEdges) {
+  const auto model = read_model_text(R"(
+[materials.rock]
+density = 2600.0
+young = 1e9
+poisson = 0.2
+[joints.rough]
+friction_angle = 30.0
+[contact]
+joint = "rough"
+[domain]
+outline = [[0, 0], [10, 0], [10, 10], [0, 10]]
+[[joint_set]]
+name = "flat"
+angle = 20.0
+spacing = 2.3
+[[joint_set]]
+name = "steep"
+angle = 75.0
+spacing = 1.9
+[[trace]]
+points = [[-1, 9], [4, 5.5], [11, 5]]
+[solver]
+duration = 1.0
+)",
+                                     "m.toml", {});
+  ASSERT_TRUE(model.ok());
+  const auto set = build_polygons(model.value());
+  ASSERT_TRUE(set.ok());
+  std::map<std::string, double> length;
+  for (const BlockPolygon& block : set.value().blocks) {
+    ASSERT_EQ(block.table.size(), block.rings.size());
+    for (std::size_t e = 0; e < block.rings[0].size(); ++e) {
+      const Ring& ring = block.rings[0];
+      const Vec2 along = ring[(e + 1) % ring.size()] - ring[e];
+      const Vec2 middle = ring[e] + 0.5 * along + set.value().origin;
+      const Index row = block.table[0][e];
+      const std::string table =
+          row == none ? "" : set.value().tables[static_cast<std::size_t>(row)];
+      length[table] += norm(along);
+      const double degrees = std::atan2(along.y, along.x) * 180.0 / std::numbers::pi;
+      const auto runs_at = [&](double angle) {
+        return std::abs(std::remainder(degrees - angle, 180.0)) < 1e-4;
+      };
+      const bool outer = std::min({middle.x, middle.y, 10.0 - middle.x, 10.0 - middle.y}) < 1e-6;
+      const double first = std::atan2(-3.5, 5.0), second = std::atan2(-0.5, 7.0);
+      const double per_radian = 180.0 / std::numbers::pi;
+      const bool fits = table == "joint_set.flat"    ? runs_at(20.0)
+                        : table == "joint_set.steep" ? runs_at(75.0)
+                        : table == "trace.0"
+                            ? runs_at(first * per_radian) || runs_at(second * per_radian)
+                            : outer;
+      EXPECT_TRUE(fits) << table << " at " << middle.x << ' ' << middle.y << ", " << degrees;
+    }
+  }
+  EXPECT_EQ(length.size(), 4u);
+  for (const char* table : {"joint_set.flat", "joint_set.steep", "trace.0"})
+    EXPECT_GT(length[table], 10.0) << table;
+}
+
 TEST(StraightRuns, KeepSpikesAndCorners) {
   Ring ring = {{0, 0}, {10, 0}, {10, 10}, {5, 10}, {5, 11}, {5 - 1e-3, 10}, {0, 10}};
   std::vector<Index> law(ring.size(), 1);
@@ -147,9 +212,12 @@ TEST(StraightRuns, WorkFromAnyStartingVertex) {
   for (std::size_t first = 0; first < whole.size(); ++first) {
     Ring ring = whole;
     std::rotate(ring.begin(), ring.begin() + static_cast<std::ptrdiff_t>(first), ring.end());
-    std::vector<Index> law(ring.size(), 0);
-    remove_straight_runs(ring, law, 1e-7);
+    std::vector<Index> law(ring.size(), 0), table;
+    for (const Vec2 from : ring) table.push_back(static_cast<Index>(10.0 * from.x + from.y));
+    remove_straight_runs(ring, law, 1e-7, &table);
     EXPECT_EQ(ring.size(), 4u) << first;
+    for (std::size_t e = 0; e < table.size(); ++e)
+      EXPECT_EQ(table[e], static_cast<Index>(10.0 * ring[e].x + ring[e].y)) << first;
     EXPECT_NEAR(signed_area(ring), 12.0, 1e-12);
   }
 }

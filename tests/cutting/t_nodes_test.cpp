@@ -26,11 +26,14 @@ TEST(TNodes, AnEdgeHasOneWhereTwoNeighboursMeet) {
   PolygonSet set = of({{{0, -1}, {2, -1}, {2, 1}, {0, 1}},
                        {{0, 1}, {0.9, 1}, {0.9, 2}, {0, 2}},
                        {{0.9, 1}, {2, 1}, {2, 2}, {0.9, 2}}});
+  set.blocks[0].table = {{4, 5, 6, 7}};
   add_t_nodes(set, 1e-9, 48, all);
   const Ring expected{{0, -1}, {2, -1}, {2, 1}, {0.9, 1}, {0, 1}};
   EXPECT_EQ(set.blocks[0].rings[0], expected);
   const std::vector<Index> laws{0, 1, 2, 2, 3};
   EXPECT_EQ(set.blocks[0].joint[0], laws);
+  const std::vector<Index> tables{4, 5, 6, 6, 7};
+  EXPECT_EQ(set.blocks[0].table[0], tables);
   EXPECT_EQ(set.blocks[1].rings[0].size(), 4u);
   EXPECT_EQ(set.blocks[2].rings[0].size(), 4u);
 }

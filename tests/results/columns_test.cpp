@@ -83,7 +83,7 @@ TEST(Columns, KeepTheirNames) {
   const std::string joints =
       "block_i,block_j,joint,x,y,normal_force,shear_force,opening,slip,state,ever_slipped,"
       "ever_opened,mobilised,length,closed_length,x_a,y_a,x_b,y_b,normal_stress,normal_stress_a,"
-      "normal_stress_b,shear_stress\n";
+      "normal_stress_b,shear_stress,table\n";
   EXPECT_EQ(header_of(ResultFile::stage_joints), joints);
   EXPECT_EQ(header_of(ResultFile::joints), joints);
   EXPECT_EQ(header_of(ResultFile::blocks),
@@ -93,9 +93,9 @@ TEST(Columns, KeepTheirNames) {
   EXPECT_EQ(header_of(ResultFile::mechanism),
             "id,name,x,y,ux,uy,displacement,rotation,turning_part,motion\n");
   EXPECT_EQ(header_of(ResultFile::mechanism_joints),
-            "block_i,block_j,joint,x,y,slip,opening,turning,motion\n");
+            "block_i,block_j,joint,x,y,slip,opening,turning,motion,table\n");
   EXPECT_EQ(header_of(ResultFile::columns), "file,column,unit,meaning\n");
-  EXPECT_EQ(header_of(ResultFile::cut), "block,material,ring,x,y,joint\n");
+  EXPECT_EQ(header_of(ResultFile::cut), "block,material,ring,x,y,joint,table\n");
 }
 
 TEST(Columns, HeadTheTablesThatAreWritten) {

@@ -82,8 +82,8 @@ class Results:
         end a to end b), opening (m, negative: closed), slip (m, from a to b); state (open, stick, slide,
         bonded), ever_slipped, ever_opened (0 or 1), mobilised (shear over shear strength); length of the overlap,
         closed_length of its closed part, its ends x_a, y_a, x_b, y_b (m); normal_stress (Pa, compression positive;
-        the mean over the overlap), normal_stress_a, normal_stress_b (at its ends), shear_stress (Pa). Forces are
-        those of the model's thickness.
+        the mean over the overlap), normal_stress_a, normal_stress_b (at its ends), shear_stress (Pa); table (from which the
+        line of the joint comes, as joint_set.bedding). Forces are those of the model's thickness.
         """
         return read_table(self._file("joints.csv"))
 
@@ -321,7 +321,7 @@ _WHOLE = {
     *("yielded_bolts", "loose"),
 }
 _TEXT = {
-    *("name", "material", "joint", "state", "bolt", "until", "motion", "outcome", "reason"),
+    *("name", "material", "joint", "table", "state", "bolt", "until", "motion", "outcome", "reason"),
     *("file", "column", "unit", "meaning", "vary"),
 }
 
