@@ -3,27 +3,18 @@
 
 #include <cmath>
 #include <memory>
+#include <utility>
 
-#include "app/common.hpp"
+#include "app/analysis_command.hpp"
 #include "app/mechanism_picture.hpp"
-#include "app/study_folder.hpp"
 #include "base/text.hpp"
-#include "model/write_model.hpp"
 #include "observe/observe.hpp"
-#include "results/columns.hpp"
 #include "results/files.hpp"
 #include "results/frames.hpp"
 #include "study/key_blocks.hpp"
 
 namespace edda {
 namespace {
-
-struct KeyBlockArguments {
-  std::string model, folder;
-  std::vector<std::string> overrides;
-  KeyBlockOptions options;
-  bool quiet = false, json = false;
-};
 
 /// Blocks in the colours of their classes, key blocks by their generation.
 Trouble draw(const Model& model, const KeyBlocks& found, const std::string& folder) {
@@ -63,14 +54,8 @@ Trouble draw(const Model& model, const KeyBlocks& found, const std::string& fold
 }
 
 Trouble write_results(const Model& model, const KeyBlocks& found, const std::string& folder) {
-  const auto write = [&](const char* name, const std::string& text) {
-    return write_file(folder + "/" + name, text);
-  };
-  if (Trouble t = write("model.toml", to_toml(model))) return t;
-  if (Trouble t = write("keyblocks.csv", key_blocks_csv(found))) return t;
-  if (Trouble t = draw(model, found, folder)) return t;
-  if (Trouble t = write_columns_csv(folder)) return t;
-  return write("summary.json", key_blocks_summary(model, found));
+  if (Trouble t = write_file(folder + "/keyblocks.csv", key_blocks_csv(found))) return t;
+  return draw(model, found, folder);
 }
 
 /// To centimetres, without a minus sign before 0.
@@ -100,39 +85,23 @@ void print_end(const KeyBlocks& found, const std::string& folder) {
              duration_text(found.seconds), folder);
 }
 
-int key_blocks_of(const KeyBlockArguments& args) {
-  const std::optional<Model> model =
-      read_or_print(args.model, args.overrides, args.json, ReadFor::no_run);
-  if (!model) return exit_code::bad_input;
-  const std::string folder = args.folder.empty() ? stem_of(args.model) + "-keyblocks" : args.folder;
-  if (const Trouble trouble = check_folder(folder, args.model)) {
-    print({*trouble}, args.json);
-    return exit_code::bad_input;
-  }
-  const Result<KeyBlocks> found = key_blocks(*model, args.options);
-  if (!found.ok()) {
-    print(found.faults(), args.json);
-    return exit_code::bad_input;
-  }
-  const KeyBlocks& k = found.value();
-  if (!args.quiet && !args.json) say([&] { print_warnings(k.warnings); });
-  const Trouble trouble =
-      fill_study_folder(folder, [&] { return write_results(*model, k, folder); });
-  if (trouble) {
-    print({*trouble}, args.json);
-    return exit_code::failed;
-  }
-  print_answer(args.json, args.quiet, key_blocks_summary(*model, k), k.message,
-               [&] { print_end(k, folder); });
-  return exit_code::done;
+Result<AnalysisResult> find_key_blocks(const Model& model, const KeyBlockOptions& options) {
+  Result<KeyBlocks> found = key_blocks(model, options);
+  if (!found.ok()) return found.faults();
+  const auto k = std::make_shared<const KeyBlocks>(std::move(found.value()));
+  AnalysisResult analysis{k->message, key_blocks_summary(model, *k), k->warnings};
+  analysis.print = [k](const std::string& folder) { print_end(*k, folder); };
+  analysis.write = [k, &model](const std::string& folder) {
+    return write_results(model, *k, folder);
+  };
+  return analysis;
 }
 
 }  // namespace
 
 void add_keyblocks(CLI::App& app, int& code) {
-  CLI::App* command =
-      app.add_subcommand("keyblocks", "Find the blocks that can leave the rock, and those that do");
-  command->footer(
+  AnalysisCommand command{
+      "keyblocks", "Find the blocks that can leave the rock, and those that do",
       "Example:\n"
       "  edda keyblocks tunnel.toml\n"
       "  edda keyblocks slope.toml --factor 1.3\n"
@@ -145,28 +114,19 @@ void add_keyblocks(CLI::App& app, int& code) {
       "with -keyblocks, here) then holds\n"
       "  summary.json     how many there are, their area and weight; written last\n"
       "  keyblocks.csv    every block that can leave: mode, factors, generation, support\n"
-      "  keyblocks.png, keyblocks.svg  the blocks by their class");
-  auto args = std::make_shared<KeyBlockArguments>();
-  command->add_option("MODEL", args->model, "The model, a TOML file")
-      ->required()
-      ->type_name("FILE");
-  command
-      ->add_option("-o,--output", args->folder, "Folder for the results (default: stem-keyblocks)")
-      ->type_name("DIR");
-  command
-      ->add_option("--factor", args->options.factor,
-                   "Key blocks have a factor below this (default: 1)")
+      "  keyblocks.png, keyblocks.svg  the blocks by their class",
+      "Print the sentence alone, no warnings"};
+  const auto options = std::make_shared<KeyBlockOptions>();
+  command.find = [options](const Model& model, const AnalysisRun&) {
+    return find_key_blocks(model, *options);
+  };
+  CLI::App& added = add_analysis(app, code, std::move(command));
+  added.add_option("--factor", options->factor, "Key blocks have a factor below this (default: 1)")
       ->check(CLI::PositiveNumber);
-  command
-      ->add_option("--generations", args->options.generations,
-                   "At most so many: 1 for the blocks that leave first (default: all)")
+  added
+      .add_option("--generations", options->generations,
+                  "At most so many: 1 for the blocks that leave first (default: all)")
       ->check(CLI::PositiveNumber);
-  add_overrides(*command, args->overrides);
-  add_threads(*command);
-  command->add_flag("--quiet", args->quiet, "Print the sentence alone, no warnings");
-  add_json(*command, args->json,
-           "Print the summary as one JSON object on stdout, and nothing on stderr");
-  command->callback([args, &code] { code = key_blocks_of(*args); });
 }
 
 }  // namespace edda

@@ -1,26 +1,17 @@
 // edda limit
 #include <fmt/format.h>
-#include <omp.h>
 
 #include <memory>
+#include <utility>
 
-#include "app/common.hpp"
+#include "app/analysis_command.hpp"
 #include "app/mechanism_picture.hpp"
-#include "app/study_folder.hpp"
 #include "base/text.hpp"
-#include "model/write_model.hpp"
-#include "results/columns.hpp"
 #include "results/files.hpp"
 #include "study/limit_analysis.hpp"
 
 namespace edda {
 namespace {
-
-struct LimitArguments {
-  std::string model, folder;
-  std::vector<std::string> overrides;
-  bool quiet = false, json = false;
-};
 
 std::string other_end_text(const LimitResult& r) {
   return fmt::format("at the other end {:.5g}", r.smallest->lower);
@@ -30,7 +21,6 @@ Trouble write_results(const Model& model, const LimitResult& r, const std::strin
   const auto write = [&](const std::string& name, const std::string& text) {
     return write_file(folder + "/" + name, text);
   };
-  if (Trouble t = write("model.toml", to_toml(model))) return t;
   const auto write_mechanism = [&](const Simulation& moved, const Mechanism& mechanism,
                                    const std::string& end) {
     if (Trouble t = write("mechanism" + end + ".csv", mechanism_csv(moved, mechanism))) return t;
@@ -50,10 +40,9 @@ Trouble write_results(const Model& model, const LimitResult& r, const std::strin
   if (!r.forces.empty()) {
     if (Trouble t = write("limit_joints.csv", limit_joints_csv(r))) return t;
     const std::string says = "forces of the joints at the limit: " + r.message;
-    if (Trouble t = draw_thrust(model, *r.drawn, r.forces, says, folder)) return t;
+    return draw_thrust(model, *r.drawn, r.forces, says, folder);
   }
-  if (Trouble t = write_columns_csv(folder)) return t;
-  return write("summary.json", limit_summary(model, r));
+  return {};
 }
 
 /// Those before and after the one of the limit.
@@ -98,49 +87,33 @@ void print_end(const LimitResult& r, const std::string& folder) {
              pictures.empty() ? "" : " (" + pictures + ")");
 }
 
-int limit(const LimitArguments& args) {
-  const std::optional<Model> model =
-      read_or_print(args.model, args.overrides, args.json, ReadFor::no_run);
-  if (!model) return exit_code::bad_input;
-  const std::string folder = args.folder.empty() ? stem_of(args.model) + "-limit" : args.folder;
-  if (const Trouble trouble = check_folder(folder, args.model)) {
-    print({*trouble}, args.json);
-    return exit_code::bad_input;
-  }
+Result<AnalysisResult> limit(const Model& model, const AnalysisRun& run) {
   LimitOptions options;
-  options.threads = omp_get_max_threads();
-  options.stop = &stop_on_signals();
-  if (!args.quiet && !args.json)
-    options.say = [](const std::string& line) { say([&] { fmt::print(stderr, "{}\n", line); }); };
-  const Result<LimitResult> found = limit_analysis(*model, options);
-  if (!found.ok()) {
-    print(found.faults(), args.json);
-    return exit_code::bad_input;
+  options.threads = run.threads;
+  options.stop = run.stop;
+  options.say = run.say;
+  Result<LimitResult> found = limit_analysis(model, options);
+  if (!found.ok()) return found.faults();
+  const auto r = std::make_shared<const LimitResult>(std::move(found.value()));
+  AnalysisResult analysis{r->message, limit_summary(model, *r), r->warnings};
+  if (r->interrupted) {
+    analysis.print = [r](const std::string&) { fmt::print(stderr, "{}\n", r->message); };
+    analysis.code = exit_code::interrupted;
+    return analysis;
   }
-  const LimitResult& r = found.value();
-  if (r.interrupted) {
-    print_answer(args.json, args.quiet, limit_summary(*model, r), r.message,
-                 [&] { fmt::print(stderr, "{}\n", r.message); });
-    return exit_code::interrupted;
-  }
-  if (!args.quiet && !args.json) say([&] { print_warnings(r.warnings); });
-  const Trouble trouble =
-      fill_study_folder(folder, [&] { return write_results(*model, r, folder); });
-  if (trouble) {
-    print({*trouble}, args.json);
-    return exit_code::failed;
-  }
-  print_answer(args.json, args.quiet, limit_summary(*model, r), r.message,
-               [&] { print_end(r, folder); });
-  return r.largest.status == LimitEnd::not_solved ? exit_code::failed : exit_code::done;
+  analysis.print = [r](const std::string& folder) { print_end(*r, folder); };
+  analysis.write = [r, &model](const std::string& folder) {
+    return write_results(model, *r, folder);
+  };
+  if (r->largest.status == LimitEnd::not_solved) analysis.code = exit_code::failed;
+  return analysis;
 }
 
 }  // namespace
 
 void add_limit(CLI::App& app, int& code) {
-  CLI::App* command =
-      app.add_subcommand("limit", "Find the load at which the blocks, taken as rigid, collapse");
-  command->footer(
+  AnalysisCommand command{
+      "limit", "Find the load at which the blocks, taken as rigid, collapse",
       "Example:\n"
       "  edda limit arch.toml --set fos.vary=kh\n"
       "  edda limit slope.toml\n"
@@ -154,19 +127,10 @@ void add_limit(CLI::App& app, int& code) {
       "  summary.json          the limit and its bounds; written last\n"
       "  mechanism.csv, mechanism_joints.csv  which blocks and joints move;  mechanism.png, .svg\n"
       "  mechanism_other_end.* the same at the other end\n"
-      "  limit_joints.csv      the force of each joint and where it acts;  thrust.png, .svg");
-  auto args = std::make_shared<LimitArguments>();
-  command->add_option("MODEL", args->model, "The model, a TOML file")
-      ->required()
-      ->type_name("FILE");
-  command->add_option("-o,--output", args->folder, "Folder for the results (default: stem-limit)")
-      ->type_name("DIR");
-  add_overrides(*command, args->overrides);
-  add_threads(*command);
-  command->add_flag("--quiet", args->quiet, "Print the line with the limit alone, no warnings");
-  add_json(*command, args->json,
-           "Print the summary as one JSON object on stdout, and nothing on stderr");
-  command->callback([args, &code] { code = limit(*args); });
+      "  limit_joints.csv      the force of each joint and where it acts;  thrust.png, .svg",
+      "Print the line with the limit alone, no warnings"};
+  command.find = limit;
+  add_analysis(app, code, std::move(command));
 }
 
 }  // namespace edda

@@ -7,7 +7,9 @@
 #include <optional>
 #include <utility>
 
+#include "results/json.hpp"
 #include "results/machine.hpp"
+#include "results/version.hpp"
 #include "study/side_by_side.hpp"
 
 namespace edda {
@@ -215,6 +217,21 @@ Result<Verification> verify_model(const Model& model, const VerifyOptions& optio
     }
   }
   return v;
+}
+
+std::string verification_summary(const Model& model, const Verification& v) {
+  Json j;
+  j.open_object().pair("version", version).pair("title", model.title);
+  j.pair("failed", v.failed).pair("time", v.time);
+  j.pair("energy_error", v.largest_energy_error).pair("own_stiffness", v.own_stiffness);
+  j.key("monitors").open_list();
+  for (const MonitorBar& m : v.monitors) {
+    j.open_object().pair("name", m.name).pair("ux", m.displacement.x).pair("uy", m.displacement.y);
+    j.pair("step", m.step).pair("stiffness", m.stiffness).pair("order", m.order).close();
+  }
+  j.close();
+  j.close();
+  return j.text() + "\n";
 }
 
 }  // namespace edda

@@ -42,4 +42,7 @@ struct VerifyOptions {
 /// properties of the rock and stay. Faults: those of prepare_run(), and a model without monitors.
 Result<Verification> verify_model(const Model& model, const VerifyOptions& options);
 
+/// What it has found, as JSON.
+std::string verification_summary(const Model& model, const Verification& verification);
+
 }  // namespace edda

@@ -52,7 +52,7 @@ class Cli(RampProgram):
         joints = read_cells(self.dir / "m/joints.csv")
         self.assertEqual(" ".join(joints[0]),
                          "block_i block_j joint x y normal_force shear_force opening slip state ever_slipped ever_opened mobilised "
-                         "length closed_length x_a y_a x_b y_b normal_stress normal_stress_a normal_stress_b shear_stress")
+                         "length closed_length x_a y_a x_b y_b normal_stress normal_stress_a normal_stress_b shear_stress table")
         self.assertEqual(done.stdout.splitlines()[0][:9], "completed")
 
     def test_input_hash_is_that_of_the_file(self):
@@ -381,6 +381,12 @@ material = "rock"
             other = self.expect(0, "verify", "m.toml", "--threads", threads)
             self.assertEqual((other.stderr, other.stdout), (done.stderr, done.stdout), threads)
         self.assertEqual(self.expect(0, "verify", "m.toml", "--quiet").stderr, "")
+        as_json = self.expect(0, "verify", "m.toml", "--json")
+        summary = json.loads(as_json.stdout)
+        self.assertEqual((as_json.stderr, len(as_json.stdout.splitlines())), ("", 1))
+        self.assertEqual((summary["time"], summary["failed"]), (0.01, ""))
+        self.assertEqual([m["name"] for m in summary["monitors"]], ["M"])
+        self.assertGreater(summary["monitors"][0]["step"], 0)
         self.assertEqual(self.names(), ["m.toml"])
         self.expect(2, "verify", "m.toml", "--set", "joints.ramp.friction_angle=-1")
         self.expect(2, "verify", "m.toml", "--set", "solver.time_step=0.1")

@@ -12,7 +12,7 @@ class Pictures(RampProgram):
             self.expect(0, "cut", "m.toml", "-o", "cut." + ending)
             self.assertGreater((self.dir / ("cut." + ending)).stat().st_size, 100)
         rows = read_rows(self.dir / "cut.csv")
-        self.assertEqual(list(rows[0]), "block material ring x y joint".split())
+        self.assertEqual(list(rows[0]), "block material ring x y joint table".split())
         self.assertEqual(len(rows), 8)
 
     def test_plot_of_results_and_models(self):
