@@ -64,7 +64,7 @@ class Source(unittest.TestCase):
     def test_refuses_what_is_no_expression(self):
         for source, row, said in (("x.a + b;", {}, "within a name"), ("y = 2 * a + bc;", {}, "within a name"), ("y * a * 2.0;", {"text": "* a *"}, "an operator"),
                                   ("if (a > b) {", {"text": "if (a > b) {", "becomes": "if (false) {"}, "not closed"),
-                                  ("  constexpr double c = a + b;", {}, "a constant is needed")):
+                                  ("y = a + b(2);", {}, "its arguments"), ("  constexpr double c = a + b;", {}, "a constant is needed")):
             with self.assertRaisesRegex(mutants.Stale, "sign: src/base/sum.cpp: .*" + said):
                 mutants.mutated(source, [mutant(**row)])
 
@@ -76,7 +76,11 @@ class Source(unittest.TestCase):
 
     def test_refuses_mutants_that_overlap(self):
         with self.assertRaisesRegex(mutants.Stale, "overlaps with another mutant"):
-            mutants.mutated(SOURCE, [mutant(), mutant(2, name="whole", text="double sum = a + b;", becomes="double sum = a;")])
+            mutants.mutated(SOURCE, [mutant(text="2.0", becomes="3.0"), mutant(2, name="whole", text="sum *= 2.0;", becomes="")])
+
+    def test_refuses_a_declaration(self):
+        with self.assertRaisesRegex(mutants.Stale, r"sign: src/base/sum.cpp: declares a variable: double sum = a \+ b;"):
+            mutants.mutated(SOURCE, [mutant(text="double sum = a + b;", becomes="double sum = a;")])
 
     def test_refuses_a_file_that_is_gone(self):
         with tempfile.TemporaryDirectory() as folder:
