@@ -64,7 +64,8 @@ class Source(unittest.TestCase):
     def test_refuses_what_is_no_expression(self):
         for source, row, said in (("x.a + b;", {}, "within a name"), ("y = 2 * a + bc;", {}, "within a name"), ("y * a * 2.0;", {"text": "* a *"}, "an operator"),
                                   ("if (a > b) {", {"text": "if (a > b) {", "becomes": "if (false) {"}, "not closed"),
-                                  ("y = a + b(2);", {}, "its arguments"), ("  constexpr double c = a + b;", {}, "a constant is needed")):
+                                  ("y = a + b(2);", {}, "its arguments"), ("y -= a * b;", {"text": "y -= a", "becomes": "y += a"}, "what is assigned"),
+                                   ("  constexpr double c = a + b;", {}, "a constant is needed")):
             with self.assertRaisesRegex(mutants.Stale, "sign: src/base/sum.cpp: .*" + said):
                 mutants.mutated(source, [mutant(**row)])
 
