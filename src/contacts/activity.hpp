@@ -14,8 +14,8 @@ struct WasActive {
 
 /// Decides those properties of face k that may change only while it stores no energy. The face acts
 /// if it comes into being open, or the blocks overlap where it would press (docs/contacts.md);
-/// otherwise, as with the far sides of two thin blocks, which are opposed, too, it acts once it is
-/// open. Returns whether anything has changed.
+/// otherwise it acts once it is open. So spurious contacts of back faces are filtered out: the far
+/// sides of two thin blocks are opposed, too. Returns whether anything has changed.
 bool decide_activity(FaceSet& faces, const BlockSet& blocks, const Pose& pose, WasActive before,
                      std::size_t k);
 

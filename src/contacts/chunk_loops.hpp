@@ -9,8 +9,8 @@
 
 namespace edda {
 
-/// How the two edges of each face stand: what EdgeGeometry follows from beside s2, y2, r1, r2, and
-/// z2, which are remembered (FaceMemoryColumns).
+/// Relative geometry of the two edges of each face, cached: what EdgeGeometry follows from beside
+/// s2, y2, r1, r2, and z2, which are remembered (FaceMemoryColumns).
 template <class C>
 struct StandColumns {
   C tx, ty, per_base, z1, per_e, per_f, slope_e, slope_f, closure_at_0;
@@ -99,9 +99,9 @@ struct ChunkFound {
   double deepest;
 };
 
-/// Reads the records of the edges of a chunk. A loop that reads the columns at once takes longer
-/// than one some chunks later: the processor cannot pass on, as one vector of eight, what it has
-/// just stored as two of four.
+/// Reads the records of the edges of a chunk. The columns are to be read some chunks later: store
+/// to load forwarding fails where a vector of eight is read that has just been stored as two of
+/// four.
 void read_edges(const double* from, const Id* slot_e, const Id* slot_f, Records& e, Records& f);
 /// Reads EdgeInverseMass of the edges of a chunk, by their numbers. next: BlockSet::next.
 void read_masses(const Masses& masses, const Id* next, const Id* edge, const Id* facing, Records& e,

@@ -119,7 +119,7 @@ bool bond_fails(const FaceSet& c, const BlockSet& b, const FaceFields& now, std:
 
 void break_bond(FaceSet& c, const BlockSet& b, const LawTable& laws, const FaceFields& now,
                 std::size_t k) {
-  // What cracks from one end as it bends is whole at the other, which is pressed.
+  // A flexural crack (mode I), from one end while the other is pressed, keeps its shear strength.
   const bool cracks = c.bonded[k] > 0.0 && c.carries_tension[k] > 0.0 &&
                       std::max(now.closure_a, now.closure_b) > 0.0 &&
                       !failure_now(c, b, now, k).sheared;

@@ -27,11 +27,11 @@ struct FacePair {
       turn_q2;  ///< cosine and sine of the exterior angles of the corners
 };
 
-/// Edges of which the overlap is shorter than this part of FacePair::passing do not meet. Where
-/// four corners meet, as at every crossing of two joint sets, rounding alone makes corners overlap
-/// that lie across from each other, and let go of each other, in every step. Such an overlap could
-/// carry 1.5e-10 of what the shorter edge could, and mostly nothing, since the aspect gate allows
-/// it closures of twice its length at most.
+/// Relative tolerance of the overlap: edges whose overlap is shorter than this part of
+/// FacePair::passing form no contact. It suppresses chatter by round-off where four corners
+/// coincide, as at every crossing of two joint sets, between those that lie across from each other.
+/// An overlap of that length could carry 1.5e-10 of what the shorter edge could, and mostly
+/// nothing, since the aspect gate allows it closures of twice its length at most.
 inline constexpr double least_overlap = 1e-9;
 /// Whether the overlap between these coordinates along t exists.
 EDDA_INLINE bool overlaps(double from, double to, const FacePair& pair) {
@@ -139,9 +139,9 @@ EDDA_INLINE bool carries_tension(const FacePair& pair) {
   return pair.carries_tension != 0.0;
 }
 
-/// Edges that gape from a corner on are closed where what is closed of them would be longer than
-/// this part of FacePair::passing. Blocks that share a corner, as at every crossing of joints,
-/// touch there by rounding alone, and would open and close in every step.
+/// Dead band of the closed length, as a part of FacePair::passing, for edges that open from a
+/// shared corner on. Blocks that share a corner, as at every crossing of joints, are in contact
+/// there by round-off alone, and would open and close in every step.
 inline constexpr double least_closed = 1e-11;
 /// Closures at the ends: the drawn and the locked ones.
 EDDA_INLINE FaceEnds closed_by(FaceEnds drawn, const EdgeGeometry& o, const FacePair& pair) {

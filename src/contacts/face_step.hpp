@@ -318,9 +318,9 @@ EDDA_INLINE void mark_changes(FaceStep& s, const FaceInputs& in, const EdgeGeome
   s.depth = s.touches ? larger(face.drawn.a, face.drawn.b) : 0.0;
 }
 
-/// Evaluates a face at step n, where its two edges stand so and are this element. dashpots: some
-/// face of the model has dashpots; limits_given: as in act(); books: with the work of the step,
-/// without which the result is only right where there is no `unrest`.
+/// Contact update of a face at step n for its edge geometry and its element there. dashpots: some
+/// face of the model has dashpots; limits_given: as in act(); books: with the work terms of the
+/// step; without them the update is exact only where there is no `unrest` (elastic stick).
 template <bool dashpots, bool limits_given, Formulas use, bool books = true>
 EDDA_INLINE FaceStep step_of_face(const FaceInputs& in, const EdgeGeometry& stands,
                                   const Face& face) {

@@ -7,8 +7,8 @@
 //
 // Each face has its place for its forces, and those on an edge are added in the order of the edges
 // on the other side. So nothing depends on the tiles, nor on the order of the faces within a tile:
-// faces that do alike lie together (contacts/tile_packing.hpp), and those of which nothing can
-// change for a while sleep behind the others (contacts/tile_sleep.hpp).
+// they are sorted by kernel class (contacts/tile_packing.hpp), and open ones that cannot close for
+// a while are skipped, at the end (contacts/tile_sleep.hpp).
 //
 // All arrays are flat and hold numbers and indices only.
 #pragma once
@@ -109,9 +109,9 @@ constexpr bool test(LaneBits bits, unsigned of, std::size_t lane) {
 }
 }  // namespace lane_bits
 
-/// What a face does, in the order in which faces lie in their tile: carries load by the short
-/// formulas (is_plain()) and by the long ones, at rest and with work; touches, is looked at,
-/// rests, sleeps.
+/// Kernel class of a face, by which the faces of a tile are sorted: carries load, by the short
+/// formulas (is_plain()) or by the long ones, without or with work; closed without load; open and
+/// evaluated; skipped with a narrow margin (resting) or a wide one (asleep; tile_sleep.hpp).
 namespace face_kind {
 enum Kind : std::uint8_t {
   short_rest,
@@ -129,18 +129,17 @@ inline constexpr unsigned rest_levels = 2;  ///< the last kinds, one for each of
 
 using AlignedNumbers = std::vector<double, InWholeLines<double>>;
 
-/// How long the faces of a tile that rest or sleep may do so: until a corner of theirs has left its
-/// straight path by more than the margin of their chunk (FaceTiles::rest), or for a number of
-/// steps.
+/// How long faces of a tile are skipped: until an end of their edges deviates from its extrapolated
+/// path by more than the margin of their chunk (FaceTiles::rest), or for a number of steps.
 struct TileSleep {
-  double margin = 0.0;     ///< m, of those that sleep; where one of them would wake, it is over
+  double margin = 0.0;     ///< m, of those that sleep; once it is exceeded, `over` is set
   double strayed = 0.0;    ///< m: upper bound of the distance of any vertex from its path
   double least = 0.0;      ///< m: smallest `rest` of the chunks that rest
   double fastest = 0.0;    ///< m: motion along the paths in a step, of any vertex
-  unsigned age = 0;        ///< steps since it was decided who sleeps, or more
-  unsigned length = 32;    ///< steps for which they may do so
-  bool calm = false;       ///< few faces did otherwise then than before
-  bool over = true;        ///< that must be decided anew
+  unsigned age = 0;        ///< steps since the skipped faces were chosen, or more
+  unsigned length = 32;    ///< steps for which they may be skipped
+  bool calm = false;       ///< few faces had changed their class then
+  bool over = true;        ///< the choice of skipped faces is invalid
   AlignedNumbers from;     ///< [slots][4] where the ends of the edges were then, m
   AlignedNumbers pace;     ///< [slots][4] how far they had come in the last step, m
   AlignedNumbers allowed;  ///< [slots] by how much they may stray, m
@@ -215,8 +214,8 @@ struct FaceTiles {
   std::vector<std::uint8_t>
       plain;  ///< [chunks] 1: is_plain() held for all its faces in the last step
   std::vector<std::uint8_t> bonds;  ///< [chunks] as FaceSet::bonds
-  std::vector<double> rest;  ///< [chunks] m: nobody looks at its faces until a corner of theirs has
-                             ///< strayed by more than that (TileSleep); 0: they are looked at
+  std::vector<double> rest;  ///< [chunks] m: skip margin (TileSleep): its faces are not evaluated
+                             ///< until an end of their edges deviates by more; 0: they are
   std::vector<std::uint8_t> idle[2];   ///< [chunks] 1: no face carried load in that step
   std::vector<std::uint8_t> fresh[2];  ///< [chunks] 1: `work` holds the work of that step
 
@@ -227,8 +226,8 @@ struct FaceTiles {
   /// Records of four numbers for the forces of the awake faces on the edges of a tile: those on an
   /// own edge lie side by side, in the order of FaceSet::on_edge.
   std::vector<Id> record_begin;        ///< [tiles][own edges + 1]
-  std::vector<Id> record_e, record_f;  ///< [chunks][8]; edges of other tiles have one of the chunk
-                                       ///< alone, behind the others, which nothing reads
+  std::vector<Id> record_e, record_f;  ///< [chunks][8]; edges of other tiles have a dummy record,
+                                       ///< one for each chunk
 
   /// The records of the last sweep of a tile, where some of its faces may be evaluated again.
   std::vector<AlignedNumbers> forces;  ///< [tiles] [records][4] on start and end of an edge, N

@@ -11,10 +11,10 @@
 //  dilation: a slip du opens the joint by tan(psi) |du|: the locked closure increases by that much,
 //    and the energy that the normal spring gains is taken from what friction dissipates, which
 //    becomes T |du| - N tan(psi) |du|. The opening r between n and n + 1 is that of the slip in the
-//    same step: with the slip of the step before, N would follow it a step late, which acts like a
-//    negative dashpot, and blocks hop. In the leapfrog's terms it takes r (N_n + N_{n+1})/2 from
-//    friction, with N_{n+1} in the new position of the blocks: they give way as the joint opens,
-//    and r may be many times their closure under the load.
+//    same step: dilation is integrated implicitly, since with the slip of the step before N would
+//    lag by a step, which is negative damping, and blocks hop. In the leapfrog's terms it takes r
+//    (N_n + N_{n+1})/2 from friction, with N_{n+1} in the new position of the blocks: they give way
+//    as the joint opens, and r may be many times their closure under the load.
 #pragma once
 
 #include "blocks/pose.hpp"

@@ -70,8 +70,8 @@ struct LawTable {
   /// that names none counts as contact.joint), else that of the pair of materials, else resolve()
   /// of the joints alone.
   std::uint16_t resolve(Index edge, Index facing, Index edge_material, Index facing_material) const;
-  /// The same for edges that did not lie against each other as drawn. Glue holds only what was one
-  /// piece of rock, so a glued edge that meets another edge counts as one that names no joint.
+  /// The same for edges that did not lie against each other as drawn. Bonds of intact rock never
+  /// form again: a glued edge in contact with another one counts as one that names no joint.
   std::uint16_t resolve_met(Index edge, Index facing, Index edge_material,
                             Index facing_material) const;
 

@@ -25,9 +25,8 @@ struct AngleGate {
 AngleGate angle_gate(const BlockSet& blocks, Id e, Id f);
 
 /// Which edges are near each other: those of which an end of one is nearer than `apart` (m) to the
-/// other. Edges that lie behind each other act when they are within (aspect_from + aspect_range)
-/// times their overlap along each other, which is `behind` (m) at most; they are near from so much
-/// farther on.
+/// other. Of edges that interpenetrate, which act within (aspect_from + aspect_range) times
+/// their overlap along each other, `behind` (m) at most, that is the candidate range beyond.
 struct Reach {
   double apart;
   double behind = 0.0;

@@ -12,8 +12,8 @@ namespace edda {
 void load_faces(FaceTiles& tiles, const FaceSet& faces, const FaceStates& states,
                 const BlockSet& blocks, const Pose& pose);
 
-/// Takes over what has been decided of face k: stiffness, strength, locked closures, and what that
-/// has added to its accumulated work.
+/// Copies to the tiles what decisions change of face k: stiffness, strength, locked closures, and
+/// its accumulated work.
 void load_decisions(FaceTiles& tiles, const FaceSet& faces, const BlockSet& blocks, std::size_t k);
 
 /// The constants of a chunk of a tile. changed: bits of the lanes to be loaded; the others have
@@ -21,8 +21,8 @@ void load_decisions(FaceTiles& tiles, const FaceSet& faces, const BlockSet& bloc
 void load_chunk_constants(FaceTiles& tiles, const FaceSet& faces, const BlockSet& blocks,
                           std::size_t tile, std::size_t chunk, unsigned changed = 0xff);
 
-/// Takes over strength, locked closures and accumulated work of these faces of a chunk: lanes with
-/// a bit in `changed`.
+/// Copies strength, locked closures and accumulated work of these faces of a chunk to the tiles:
+/// lanes with a bit in `changed`.
 void load_strengths(FaceTiles& tiles, const FaceSet& faces, std::size_t tile, std::size_t chunk,
                     unsigned changed);
 
@@ -30,8 +30,8 @@ void load_strengths(FaceTiles& tiles, const FaceSet& faces, std::size_t tile, st
 void load_constants(FaceTiles& tiles, const FaceSet& faces, const BlockSet& blocks,
                     std::size_t tile);
 
-/// Takes over what the correction of switching has changed of face k (recompute_shear()): its slip
-/// at n - 1 (`before`) and its accumulated work.
+/// Copies to the tiles what the correction of switching has changed of face k (recompute_shear()):
+/// its slip at n - 1 (`before`) and its accumulated work.
 void load_correction(FaceTiles& tiles, const FaceSet& faces, const FaceFields& before,
                      std::size_t k);
 

@@ -5,7 +5,7 @@
 
 namespace edda {
 
-/// What a face does that carries load.
+/// Kernel class of a face that carries load.
 constexpr face_kind::Kind kind_of_working(bool short_formulas, bool works) {
   if (short_formulas) return works ? face_kind::short_work : face_kind::short_rest;
   return works ? face_kind::long_work : face_kind::long_rest;

@@ -12,8 +12,8 @@
 namespace edda {
 namespace {
 
-/// Steps after which it is decided anew who sleeps, which also brings faces together again that do
-/// alike: the more where little changes.
+/// Steps after which the skipped faces are chosen again and all are sorted: the more where little
+/// changes.
 constexpr unsigned shortest_sleep = 32, longest_sleep = 256;
 
 /// Faces rest by this part of the margin by which others sleep.
@@ -94,8 +94,8 @@ bool note_strayed(TileSleep& sleep, SweepScratch& scratch) {
   return any;
 }
 
-/// The wider the margin, the fewer faces sleep; the narrower, the more often that is decided anew:
-/// somewhat more than what the last sleep would have needed.
+/// The wider the margin, the fewer faces are skipped; the narrower, the more often they are chosen
+/// again: somewhat more than what the last margin would have had to be.
 double next_margin(const TileSleep& sleep, double strayed, double least) {
   constexpr double more = 1.5, change = 4.0, first = 4.0;
   if (sleep.age == 0) return std::max(first * sleep.fastest, least);

@@ -36,7 +36,7 @@ bool counts_in_verdicts(const Simulation& sim, std::size_t i);
 /// their D (single linkage). Where a set S is joined at D to a larger one that contains all its
 /// neighbours, S has moved by the part D/L of its size, L = sqrt(area) of the largest block of S.
 /// If S has other neighbours, these may have carried it along, and it is judged together with them.
-/// A set that touched nothing that anything supports was to land: a tenth of D counts.
+/// Of a set that was unsupported at the start, which falls before it rests, a tenth of D counts.
 class RelativeMotion {
  public:
   RelativeMotion() = default;

@@ -118,7 +118,7 @@ void warn_of_locked_toes(const Simulation& sim, std::vector<std::string>& warnin
                                 ? std::string("joint")
                                 : sim.scene->model.joints[static_cast<std::size_t>(toe.joint)].name;
   warnings.push_back(fmt::format(
-      "the {} under {} daylights at {} in an inner corner of the ground: in a run the rock in "
+      "the {} under {} daylights at {} in a re-entrant corner of the ground: in a run the rock in "
       "front supports the tip of the sliding blocks{}, while as rigid blocks they slide; let the "
       "joint daylight above the corner, by more than the blocks are to slide",
       joint, block_label(b, toe.block), place_label(b.vertex(toe.vertex) + b.origin),

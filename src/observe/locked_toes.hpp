@@ -1,5 +1,5 @@
-// Joints that daylight at an inner corner of the rock surface: a block that slides on such a joint
-// is locked by its tip.
+// Joints that daylight at a re-entrant corner of the rock surface: the toe of a block that slides
+// on such a joint is blocked kinematically.
 #pragma once
 
 #include <string>

@@ -134,7 +134,7 @@ void switch_over(Simulation& sim, const NamedRows& off, const NamedRows& on) {
   Loads& loads = sim.attached.loads;
   const State& state = sim.motion.state;
   const Pose& pose = sim.motion.pose;
-  // A ground that stops being moved must not jolt what stands on it.
+  // The rigid velocity of a ground that stops is subtracted: no jump of velocities relative to it.
   lose_velocity(sim, velocity_of_ground_by(sim, off.shakings));
   AsExternalWork work(sim);
   const NodalForces before_it = off.boundaries.empty() ? NodalForces{} : forces_now(sim);

@@ -79,7 +79,7 @@ void reevaluate_faces(Simulation& sim) {
   }
 }
 
-/// How far edges that lie behind each other may overlap along each other, m: where two blocks
+/// How far interpenetrating edges may overlap along each other, m: where two blocks
 /// penetrate each other by a closure d, by d over the sine of a corner beside the next edge, of
 /// corners down to 30 degrees by 2 d.
 double overlap_of_next_edges(const Simulation& sim) {

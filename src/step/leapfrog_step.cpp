@@ -102,7 +102,7 @@ bool move_blocks(Simulation& sim, double h_old, const LoadsNow& at_work) {
     not_yet_gathered = nullptr;
     if (control.last_displacement > lost || halvings == most_halvings) return false;
     undo_step(state, sim.scene->blocks, state.step, own.old_vx, own.old_vy, own.old_rate);
-    std::swap(pose.x, pose.x1);  // to the very bits of n, which the faces remember
+    std::swap(pose.x, pose.x1);  // bitwise those of n, which the faces remember
     std::swap(pose.y, pose.y1);
     stop_ground(sim);
     control.cap = 0.5 * state.step;

@@ -207,7 +207,7 @@ void update_estimate(Simulation& sim, const LoadsNow& at_work) {
       std::max(was > 0.0 ? std::sqrt(0.5 * (was * was + *now)) : std::sqrt(*now), slowest);
 }
 
-/// By this the strength of joints that hold is divided.
+/// Reciprocal factor of the strength during the elastic initialisation (Relaxation::Hold).
 constexpr double holding = 1e-3;
 
 /// Brings strength to what it is at this part of its gradual change.
@@ -236,14 +236,14 @@ void let_open(Simulation& sim) {
 
 /// Increases what is applied gradually, in proportion to the frequency estimate: all of it within
 /// one period, more slowly where inertia has been raised, since such blocks follow more slowly than
-/// their neighbours. After the loads the model settles before joints that hold come down to their
-/// strength: for one period after the first loads; until it is in balance where bonds hold, since
-/// what has parted comes down slowly, against the damping.
+/// their neighbours. Between the loads and the reduction of strength of an elastic initialisation
+/// the model settles: for one period after the first loads; until it is in balance where joints are
+/// bonded, since blocks that have parted fall slowly, against the damping.
 void advance_gradual_change(Simulation& sim) {
   Relaxation& relaxation = sim.relaxation;
   if (gradual_change_complete(sim)) return;
   constexpr double settling = 1.0, at_most = 5.0, increments = 100.0;
-  constexpr double slower_with_bonds = 4.0;  // what breaks must not be thrown out
+  constexpr double slower_with_bonds = 4.0;  // bounds the rate at which bonds release energy
   // Before anything has moved, the frequency of the wave is used.
   const double frequency =
       relaxation.estimate.frequency > 0.0 ? relaxation.estimate.clock() : wave_frequency(sim);

@@ -44,10 +44,10 @@ struct Relaxation {
                                     ///< slides away; empty: none
   std::vector<double> strength_from, strength_to;  ///< [laws] strength factors while strength
                                                    ///< changes gradually
-  /// At the very start joints neither open nor slide nor break while the first loads come on, so
-  /// that small blocks follow large ones as these settle, and later bonds do not break while a
-  /// stage's loads do; then the model settles, joints may open, and they come down to their
-  /// strength.
+  /// Elastic initialisation: at the start joints have a thousand times their strength while the
+  /// first loads are applied, so that small blocks follow large ones as these settle, and in later
+  /// stages bonds have; then the model settles, joints may open, and the strength is reduced to its
+  /// own.
   enum class Hold : std::uint8_t { over, loading, settling } hold = Hold::over;
   bool holds_together = false;  ///< joints do not open meanwhile
 };
@@ -60,10 +60,9 @@ void mass_damping_of_blocks(const Simulation& sim, std::vector<double>& damping)
 
 /// Applies gradually, over about a period of the motion, what begins or ends to act now, and this
 /// change of strength; at the very start also the weight, where the ground has no initial stress.
-/// What comes on then comes on joints that hold, and later on bonds that do; once it is settled
-/// they come down to their strength, gradually, too, and so does the change of strength, which
-/// there begins after the loads. Used with adaptive damping. `more`: something else is to change
-/// with Loads::gradual, too.
+/// It is an elastic initialisation (Relaxation::Hold): once the model has settled under the loads
+/// the strength is reduced gradually, too, to what it changes to. Used with adaptive damping.
+/// `more`: something else is to change with Loads::gradual, too.
 void begin_gradually(Simulation& sim, const std::vector<double>& strength_factors,
                      bool more = false);
 

@@ -38,7 +38,7 @@ void plan_slivers(Simulation& sim) {
 
 /// Raises the masses of blocks that would hold the step below the requested one. A block in motion
 /// keeps its momentum, and the energy that it loses by that is accounted as `step_change`; where a
-/// stage scales all masses it keeps its velocity, since a jolt would open joints on the way to
+/// stage scales all masses it keeps its velocity, since a jump would open joints on the way to
 /// equilibrium, and the energy is work of the stage.
 void raise_masses(Simulation& sim) {
   const BlockSet& blocks = sim.scene->blocks;

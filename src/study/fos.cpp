@@ -88,9 +88,9 @@ void add_scales(const Simulation& sim, FosResult& r) {
   r.duration = longest_rest_time(sim);
 }
 
-/// Where a factor beyond the limit of rigid blocks holds, the factor is that limit: a sharp tip or
-/// a small ledge stands in the way of what moves and bears whatever comes upon it, or what moves
-/// has come loose before and does not count in the trials (lost).
+/// Where a factor beyond the limit of rigid blocks holds, the factor is capped by that upper bound:
+/// a sharp tip or a small ledge locks the mechanism kinematically, or its blocks have come loose
+/// before and do not count in the trials (lost).
 void take_rigid_limit(const Fos& fos, LimitResult& limit, bool lost, FosResult& r) {
   const double held = *r.holds;
   const Trial* const last = trial_at(r.trials, held);

@@ -33,7 +33,7 @@ inline Vec2 around(double limit) {
 /// the limit of rigid blocks, one around this limit, unless a trial `seen` contradicts it.
 FosBracket first_bracket(const Fos& fos, const RigidLimit& rigid, const std::vector<Trial>& seen);
 
-/// The lowest limit, of joints that slide without dilating and of those that have broken.
+/// The lowest limit: of the associated, the non-associated and that of residual strength.
 double least_limit(const LimitResult& limit);
 
 /// A factor beside the lowest and the highest limit of rigid blocks. It agrees with them where all

@@ -1,4 +1,5 @@
-// Which factors a search for the factor of safety may ask for beside the one that it asks for next.
+// Speculative bisection: factors whose trials a search for the factor of safety may need after the
+// next one, made side by side with it.
 #pragma once
 
 #include <cstddef>

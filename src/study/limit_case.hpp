@@ -1,4 +1,4 @@
-// What rigid limit analysis is asked about a model, as programs.
+// The programs of rigid limit analysis for a model: their formulation and their answers.
 #pragma once
 
 #include <functional>
@@ -28,10 +28,10 @@ class LimitCase {
   };
   /// Joints dilate as they slide (associated flow rule).
   Answer at_end(bool largest, StrengthOf which) const;
-  /// The largest value of joints that slide without dilating, from that of joints that do; it is
-  /// not unique: the lower one of what successive programs come to from the forces of that, and
-  /// from the least thrust that carries the loads before anything is varied. Empty where neither
-  /// comes to an end.
+  /// The largest value with a non-associated flow rule (no dilation), by successive linear
+  /// programs. It is not unique: the lower of two, which begin at the forces of the associated
+  /// answer and at the least thrust that carries the loads before anything is varied. Empty where
+  /// neither converges.
   std::optional<double> without_dilation(const Answer& associated) const;
   /// Whether joints lose any strength at failure.
   bool is_brittle() const;

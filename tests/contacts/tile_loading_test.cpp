@@ -30,6 +30,7 @@ TEST(TileLoading, KeepsTheWorkOfFacesThatCarryNothing) {
     const std::size_t working = c.size() - 1 - 7 * column;
     FaceStates states(c.size());
     states.now[working].*fields[column] = 2.5;
+    states.before[working].*fields[column] = 1.5;
     FaceTiles tiles;
     divide_blocks(tiles, heap.blocks, heap.state, true, 5);
     load_faces(tiles, c, states, heap.blocks, heap.pose);
@@ -37,7 +38,9 @@ TEST(TileLoading, KeepsTheWorkOfFacesThatCarryNothing) {
       for (const Id place : tiles.place[k]) {
         if (place == no_id) continue;
         const auto work = get<Work>(tiles, tiles.now, place);
+        const auto before = get<Work>(tiles, 1 - tiles.now, place);
         EXPECT_EQ(work.*columns[column], k == working ? 2.5 : 0.0) << column << " of face " << k;
+        EXPECT_EQ(before.*columns[column], k == working ? 1.5 : 0.0) << column << " of face " << k;
         copies += k == working ? 1 : 0;
       }
     }
