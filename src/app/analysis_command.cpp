@@ -45,8 +45,10 @@ Trouble fill(const Model& model, const AnalysisResult& found, const std::string&
 void print_answer(const Arguments& args, const AnalysisResult& found, const std::string& folder) {
   if (args.json) {
     fmt::print("{}\n", one_line(found.summary));
+  } else if (!found.failure.empty()) {
+    fmt::print(stderr, "edda: {}\n", found.failure);
   } else if (args.quiet || !found.print) {
-    fmt::print(found.code == exit_code::failed ? stderr : stdout, "{}\n", found.message);
+    fmt::print("{}\n", found.message);
   } else {
     found.print(folder);
   }
@@ -64,7 +66,7 @@ int analyse(const AnalysisCommand& command, const Arguments& args) {
     return exit_code::bad_input;
   }
   const bool talks = !args.quiet && !args.json;
-  AnalysisRun run{omp_get_max_threads(), &stop_on_signals(), {}};
+  AnalysisRun run{omp_get_max_threads(), stop_on_signals, {}};
   if (talks)
     run.say = [](const std::string& line) { say([&] { fmt::print(stderr, "{}\n", line); }); };
   const Result<AnalysisResult> result = command.find(*model, run);

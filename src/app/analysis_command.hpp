@@ -14,7 +14,7 @@ namespace edda {
 /// What an analysis is given beside its model.
 struct AnalysisRun {
   int threads;
-  const std::atomic<bool>* stop;                ///< set from any thread: it is to end
+  const std::atomic<bool>& (*stop)();           ///< the flag that a signal sets from now on
   std::function<void(const std::string&)> say;  ///< a line of progress; empty: none is wanted
 };
 
@@ -26,6 +26,7 @@ struct AnalysisResult {
   std::function<void(const std::string& folder)> print{};  ///< the whole answer; empty: the message
   /// Its files, beside model.toml, columns.csv and summary.json; empty: nothing is written.
   std::function<Trouble(const std::string& folder)> write{};
+  std::string failure{};  ///< printed on stderr in place of an answer; empty: there is one
   int code = exit_code::done;
 };
 

@@ -55,7 +55,7 @@ int code_of(FosStatus status) {
 Result<AnalysisResult> fos(const Model& model, const AnalysisRun& run) {
   FosOptions options;
   options.threads = run.threads;
-  options.stop = run.stop;
+  options.stop = &run.stop();
   options.say = options.progress = run.say;
   Result<FosResult> found = find_factor(model, options);
   if (!found.ok()) return found.faults();

@@ -90,7 +90,7 @@ void print_end(const LimitResult& r, const std::string& folder) {
 Result<AnalysisResult> limit(const Model& model, const AnalysisRun& run) {
   LimitOptions options;
   options.threads = run.threads;
-  options.stop = run.stop;
+  options.stop = &run.stop();
   options.say = run.say;
   Result<LimitResult> found = limit_analysis(model, options);
   if (!found.ok()) return found.faults();

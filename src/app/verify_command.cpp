@@ -44,7 +44,7 @@ std::string bars_text(const Verification& v, const Model& model) {
 Result<AnalysisResult> verify(const Model& model, const AnalysisRun& run) {
   VerifyOptions options;
   options.threads = run.threads;
-  options.stop = run.stop;
+  options.stop = &run.stop();
   std::unique_ptr<ProgressBar> bar;
   if (run.say) {
     print_warnings(model.warnings);
@@ -60,13 +60,8 @@ Result<AnalysisResult> verify(const Model& model, const AnalysisRun& run) {
   if (!result.ok()) return result.faults();
   const Verification& v = result.value();
   AnalysisResult analysis{bars_text(v, model), verification_summary(model, v), {}};
-  if (!v.failed.empty()) {
-    analysis.message = v.failed;
-    analysis.print = [why = v.failed](const std::string&) {
-      fmt::print(stderr, "edda: {}\n", why);
-    };
-    analysis.code = *run.stop ? exit_code::interrupted : exit_code::failed;
-  }
+  analysis.failure = v.failed;
+  if (!v.failed.empty()) analysis.code = run.stop() ? exit_code::interrupted : exit_code::failed;
   return analysis;
 }
 

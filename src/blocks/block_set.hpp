@@ -90,10 +90,11 @@ struct BlockSet {
     const auto found = names.find(static_cast<Id>(i));
     return found == names.end() ? std::string_view{} : found->second;
   }
-  /// The table from which the line of two edges comes that lie along each other; of edge e, if it
-  /// comes from any; may be empty.
+  /// The table from which the line of two edges comes that lie along each other; of two tables that
+  /// which takes precedence where lines coincide; may be empty.
   std::string_view table_of(Id e, Id f) const {
-    const Index row = edge_table[e] != none ? edge_table[e] : edge_table[f];
+    const Index one = edge_table[e], other = edge_table[f];
+    const Index row = one == none || (other != none && other < one) ? other : one;
     return row == none ? std::string_view{} : tables[static_cast<std::size_t>(row)];
   }
 };

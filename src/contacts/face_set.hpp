@@ -1,4 +1,5 @@
-// Faces: the contacts of the model and their memory, [nf] rows each, sorted by their two edges.
+// Faces: the list of contacts and what is decided of each, [nf] rows, sorted by their two edges.
+// Their states are in tiles (contacts/face_tiles.hpp).
 // Element and notation: contacts/face.hpp; docs/contacts.md.
 #pragma once
 
@@ -15,8 +16,7 @@
 
 namespace edda {
 
-/// Properties of a face, its current strength, and its history. The columns that a step reads come
-/// first.
+/// Properties of a face, its current strength, and its history.
 template <class C>
 struct FaceProperties {
   C stiffness, shear_stiffness;  ///< k, ks times thickness, N/m per m of overlap

@@ -213,7 +213,7 @@ struct FaceTiles {
   std::vector<std::uint8_t> owned;  ///< [chunks] bit of each lane: this copy's work counts
   std::vector<std::uint8_t>
       plain;  ///< [chunks] 1: is_plain() held for all its faces in the last step
-  std::vector<std::uint8_t> bonds;  ///< [chunks] as FaceSet::bonds
+  std::vector<std::uint8_t> bonds;  ///< [chunks] 1: a face in it is bonded or carries tension
   std::vector<double> rest;  ///< [chunks] m: skip margin (TileSleep): its faces are not evaluated
                              ///< until an end of their edges deviates by more; 0: they are
   std::vector<std::uint8_t> idle[2];   ///< [chunks] 1: no face carried load in that step

@@ -52,6 +52,7 @@ void keep_trial(FaceTiles& t, const FaceSet& c) {
     }
   });
   copy_memory(t, 1 - t.now, t.now);
+  t.limits.clear();
 }
 
 void end_at_rest(FaceSet& c, FaceTiles& t, const BlockSet& b, const Pose& pose) {
@@ -64,6 +65,7 @@ void end_at_rest(FaceSet& c, FaceTiles& t, const BlockSet& b, const Pose& pose) 
 
 void drop_trial(FaceTiles& t) {
   copy_memory(t, t.now, 1 - t.now);
+  t.limits.clear();
   t.deepest.assign(t.chunks(), std::numeric_limits<double>::infinity());  // an upper bound
 }
 

@@ -1,4 +1,4 @@
-// Trial positions of a step in tiles: between steps both memories are that of step n, and a trial
+// Trial positions of a step in tiles: as it begins both memories are that of step n, and a trial
 // changes that of FaceTiles::now alone. For a method that begins every step at the end of the last.
 #pragma once
 
@@ -6,7 +6,8 @@
 
 namespace edda {
 
-/// Begins a step in which the limits of the shear forces are given; they are 0 until they are.
+/// Begins a step in which the limits of the shear forces are given, until its trial is kept or
+/// dropped; they are 0 until they are set.
 void begin_limits(FaceTiles& tiles);
 /// The limits at the ends of face k, N.
 void limit_shear(FaceTiles& tiles, FaceEnds limit, std::size_t k);

@@ -30,7 +30,7 @@ SweepScene FacesInStep::sweep_scene() const {
           .pose = scene_.pose,
           .largest_move = largest_move_,
           .pushed = own_.pushed,
-          .least_margin = own_.sleep_part * c_.reach,
+          .least_margin = skips_ ? own_.sleep_part * c_.reach : 0.0,
           .step = step_,
           .corrects = own_.corrects};
 }
@@ -126,7 +126,7 @@ void FacesInStep::evaluate_chunks(const std::vector<Id>& chunks) {
   std::vector<Part> parts;
   for (std::size_t n = 0, end = 0; n < chunks.size(); n = end) {
     const std::size_t tile = tiles.tile_of_chunk[chunks[n]];
-    const bool wakes = own_.sleep_part > 0.0 && tiles.tiles[tile].sleep.over;
+    const bool wakes = skips_ && tiles.tiles[tile].sleep.over;
     const bool some = tiles.kept[tile] != 0 && !wakes;
     while (end < chunks.size() && tiles.tile_of_chunk[chunks[end]] == tile &&
            !(some && end - n == most))

@@ -45,16 +45,17 @@ using StateAtN = std::function<const FaceFields*(Id)>;
 class FacesInStep {
  public:
   /// step: s. largest_move: m, no vertex has moved farther. keeps: the records of the forces of all
-  /// tiles are kept.
+  /// tiles are kept. skips: open faces may be skipped (contacts/tile_sleep.hpp).
   FacesInStep(FaceSet& faces, TiledFaces& tiled, const FaceScene& scene, double step,
-              double largest_move, const ForcesOfFaces& on, bool keeps = false)
+              double largest_move, const ForcesOfFaces& on, bool keeps = false, bool skips = true)
       : c_(faces),
         own_(tiled),
         scene_(scene),
         step_(step),
         largest_move_(largest_move),
         on_(on),
-        keeps_(keeps) {}
+        keeps_(keeps),
+        skips_(skips && tiled.sleep_part > 0.0) {}
 
   /// Evaluates all faces: memory, forces on the blocks. May be called again for other positions.
   void sweep();
@@ -87,7 +88,7 @@ class FacesInStep {
   FaceScene scene_;
   double step_, largest_move_;
   ForcesOfFaces on_;
-  bool keeps_;
+  bool keeps_, skips_;
 };
 
 /// Adds the sizes |fx| + |fy| of the forces of the faces on each block of the tiles, N, [nb]. Their

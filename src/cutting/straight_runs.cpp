@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <utility>
 
 namespace edda {
@@ -126,6 +127,21 @@ void drop_needless(const Ring& ring, const std::vector<std::uint8_t>& corner,
   }
 }
 
+/// Gives the edge of each kept vertex the table of the longest part of its run.
+void name_runs(const Ring& ring, const std::vector<std::uint8_t>& kept, std::vector<Index>& table) {
+  const std::size_t n = ring.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    if (!kept[i]) continue;
+    std::map<Index, double> length;
+    const std::size_t end = next_kept(kept, i);
+    for (std::size_t e = i; e < end; ++e)
+      length[table[e % n]] += norm(ring[(e + 1) % n] - ring[e % n]);
+    table[i] = std::max_element(length.begin(), length.end(), [](const auto& a, const auto& b) {
+                 return a.second < b.second;
+               })->first;
+  }
+}
+
 }  // namespace
 
 void remove_straight_runs(Ring& ring, std::vector<Index>& law, double tolerance,
@@ -137,6 +153,7 @@ void remove_straight_runs(Ring& ring, std::vector<Index>& law, double tolerance,
   split_runs(ring, kept, tolerance);
   drop_needless(ring, corner, kept, tolerance);
   if (std::count(kept.begin(), kept.end(), std::uint8_t{1}) < 3) return;
+  if (table != nullptr) name_runs(ring, kept, *table);
   const auto keep = [&](auto& values) {
     std::size_t count = 0;
     for (std::size_t i = 0; i < kept.size(); ++i) {

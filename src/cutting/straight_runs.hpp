@@ -14,7 +14,7 @@ namespace edda {
 /// that distance from the final edge, however long the run. law[i] belongs to the edge from ring[i]
 /// and follows. At least three vertices stay, vertices as near to a neighbour as eight times their
 /// distance from the new edge stay, and a ring not much thicker than the tolerance stays as it is.
-/// table: as law, but edges of several tables become one; it is that of the first.
+/// table: as law, but edges of several tables become one; it is that of the longest of them.
 void remove_straight_runs(Ring& ring, std::vector<Index>& law, double tolerance,
                           std::vector<Index>* table = nullptr);
 

@@ -12,7 +12,7 @@
 
 namespace edda {
 
-/// The faces of a step. Between steps both memories of the tiles are that of step n; of a trial
+/// The faces of a step. As it begins both memories of the tiles are that of step n; of a trial
 /// position `now` is changed alone.
 struct TrialFaces {
   FaceSet& faces;

@@ -90,7 +90,7 @@ ContactRecord face_record(const Simulation& sim, const FaceRow& row) {
   const std::size_t law = f.law[k];
   r.joint = "glued";
   if (law < sim.scene->model.joints.size()) r.joint = sim.scene->model.joints[law].name;
-  r.table = b.table_of(f.facing[k], f.edge[k]);
+  r.table = b.table_of(f.edge[k], f.facing[k]);
   r.position = middle_of(row, sim.motion.pose) + b.origin;
   const FaceSpan span = span_of(row, sim.motion.pose);
   r.a = span.a + b.origin;
@@ -127,7 +127,7 @@ ContactRecord point_record(const Simulation& sim, std::size_t k) {
   r.block_i = b.vertex_block[v];
   r.block_j = b.vertex_block[c.edge[k]];
   r.joint = sim.scene->model.joints[c.law[k]].name;
-  r.table = b.table_of(v, c.edge[k]);
+  r.table = b.table_of(c.edge[k], c.edge[k]);
   r.position = r.a = r.b = at(sim.motion.pose.x, sim.motion.pose.y, v) + b.origin;
   r.displacement = displacement_of(sim.motion.state, r.block_i, weights_of(b.weight, v));
   r.opening = -g.depth;

@@ -23,7 +23,7 @@ void list_field(Archive& a, const std::string& name, std::vector<FaceFields>& fa
   for (std::size_t k = 0; k < faces.size(); ++k) values[k] = faces[k].*field;
   a(name, values);
   if constexpr (Archive::loads) {
-    faces.resize(values.size());
+    if (values.size() != faces.size()) return a.refuse(name + " is not of these faces");
     for (std::size_t k = 0; k < values.size(); ++k) faces[k].*field = values[k];
   }
 }
@@ -38,6 +38,7 @@ void list_faces(Archive& a, FaceSet& c, FaceStates& states) {
       return a.refuse("faces do not fit together");
     }
     c.clear_rows(c.size());
+    states = FaceStates(c.size());
   }
   for (const auto& column : face_properties) {
     if (column.kept) a(std::string("faces.") + column.name, c.*column.values);
@@ -103,8 +104,6 @@ void examine_faces(Examiner& j, const FaceSet& c, const FaceStates& states, cons
                    const LawTable& laws) {
   const std::size_t n = c.size(), nv = b.vertex_count();
   j.rows("faces", c.rows(), n);
-  j.rows("faces", states.now.size(), n);
-  j.rows("faces", states.before.size(), n);
   j.sized("faces.facing", c.facing, n);
   j.sized("faces.law", c.law, n);
   for (const auto* values : {&c.built_x, &c.built_y}) j.sized("faces.built", *values, nv);

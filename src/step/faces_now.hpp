@@ -32,7 +32,7 @@ struct FaceMeasures {
 };
 FaceMeasures measure_faces(const Simulation& sim);
 
-/// As is_closed() of contacts/face_reading.hpp.
+/// As is_closed() of contacts/face_reading.hpp, by what the tiles remember.
 bool is_closed_now(const Simulation& sim, std::size_t k);
 
 /// Normal force of face k, N, positive in compression, that of its dashpots included; 0 where it is

@@ -6,7 +6,6 @@
 
 #include "base/parallel.hpp"
 #include "contacts/evaluate_face.hpp"
-#include "contacts/joint_laws.hpp"
 #include "forces/dashpot_forces.hpp"
 #include "step/contact_search.hpp"
 #include "step/force_jumps.hpp"
@@ -171,7 +170,8 @@ void adjust_step(Simulation& sim) {
   }
 }
 
-/// Puts the vertices back to step n, at which the contacts are, where the step to n + 1 has failed.
+/// Puts the vertices back to step n, at which the contacts are, where the step to n + 1 has failed;
+/// the nodes stay where it has brought them, beyond all numbers.
 void leave_vertices_at_n(Pose& pose) {
   std::swap(pose.x, pose.x1);
   std::swap(pose.y, pose.y1);

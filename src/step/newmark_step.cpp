@@ -7,10 +7,8 @@
 #include <limits>
 
 #include "base/parallel.hpp"
-#include "contacts/evaluate_face.hpp"
 #include "contacts/tile_trials.hpp"
 #include "step/contact_search.hpp"
-#include "step/face_switching.hpp"
 #include "step/instant.hpp"
 #include "step/labels.hpp"
 #include "step/load_work.hpp"

@@ -9,7 +9,6 @@
 #include "step/instant.hpp"
 #include "step/invariants.hpp"
 #include "step/simulation.hpp"
-#include "step/tile_step.hpp"
 
 namespace edda {
 

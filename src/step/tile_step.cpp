@@ -3,7 +3,6 @@
 #include <omp.h>
 
 #include <algorithm>
-#include <utility>
 
 #include "contacts/face_bonds.hpp"
 #include "contacts/find_faces.hpp"
@@ -18,19 +17,17 @@ namespace edda {
 namespace {
 
 /// The faces in the step to the present positions.
-FacesInStep faces_in_step(Simulation& sim, double step) {
+FacesInStep faces_in_step(Simulation& sim, double step, bool skips = true) {
   Motion& motion = sim.motion;
   return {motion.contacts,
           sim.motion.tiled,
           face_scene(sim),
           step,
           sim.control.last_displacement,
-          {motion.on_contacts.x, motion.on_contacts.y, motion.on_contacts.modes}};
+          {motion.on_contacts.x, motion.on_contacts.y, motion.on_contacts.modes},
+          false,
+          skips};
 }
-
-}  // namespace
-
-namespace {
 
 /// Blocks of a tile, at most. Threads that share a model have eight tiles each, or else tiles of
 /// half the size, or still smaller ones in a model too small for two of these each.
@@ -77,12 +74,9 @@ void place_in_tiles(Simulation& sim) {
 }
 
 void evaluate_at_rest(Simulation& sim, double step) {
-  double& sleep_part = sim.motion.tiled.sleep_part;
-  const double slept = std::exchange(sleep_part, 0.0);
-  FacesInStep at_rest = faces_in_step(sim, step);
+  FacesInStep at_rest = faces_in_step(sim, step, false);
   at_rest.sweep();
   at_rest.decide_and_evaluate(at_rest.asking());
-  sleep_part = slept;
 }
 
 void switch_in_tiles(Simulation& sim, const StepTaken& taken) {

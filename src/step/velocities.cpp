@@ -46,7 +46,7 @@ void change_velocities(Simulation& sim, const Nodes& vx, const Nodes& vy, const 
       correct_last_step(faces, states, blocks, pose, old_x1, old_y1);
     });
     evaluate_at_rest(sim, control.step_before);
-    sum_face_forces(sim);
+    sum_contact_forces(sim);
     sim.attached.bolts.work_pending += 0.5 * control.step_before * (bolt_power(sim) - bolts_before);
   }
 }

@@ -41,6 +41,7 @@ std::optional<LimitMotion> limit_motion(const Simulation& drawn, const RigidBloc
   if (state.motion.empty()) return {};
   Simulation moved = moved_by(drawn, rigid, state.motion, far * rigid.size);
   Simulation before = drawn;  // whose joints carry what they carry at the limit
+  // Closed by what the tiles remember (is_closed_now()), whatever the edges as drawn say.
   change_faces(before, [&](const FaceSet&, FaceStates& faces) {
     for (const RigidJoint& joint : rigid.joints) faces.now[joint.face].energy = 1.0;
   });

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <random>
@@ -258,6 +259,26 @@ void expect_work_of_dashpots(bool list_at_once) {
 TEST(TileStep, WorkOfDashpotsThatAreTakenAwayIsCountedOnce) {
   expect_work_of_dashpots(false);
   expect_work_of_dashpots(true);
+}
+/// Also between two steps of the implicit method, whose limits of shear are those of a step alone.
+TEST(TileStep, BondsFailAtRestWhereTheirStrengthIsReduced) {
+  for (const char* method : {"edda", "dda"}) {
+    Simulation sim = testing::prepared(
+                         "[materials.rock]\ndensity = 2600\nyoung = 1e9\npoisson = 0.2\n"
+                         "[joints.j]\nfriction_angle = 30\ncohesion = 1e6\n"
+                         "tensile_strength = 3e5\n[contact]\njoint = \"j\"\n[solver]\n"
+                         "duration = 1\nmethod = \"" +
+                         std::string(method) +
+                         "\"\n[[block]]\nfixed = true\npolygon = [[0,1],[1,1],[1,2],[0,2]]\n"
+                         "[[block]]\npolygon = [[0,0],[1,0],[1,1],[0,1]]\n")
+                         .sim;
+    start(sim, 1.0);
+    for (int n = 0; n < 20; ++n) ASSERT_FALSE(step(sim));
+    EXPECT_EQ(sim.motion.contacts.broken, 0u) << method;
+    set_strength_factor(sim, 1e3);
+    const std::vector<double> bonded = sim.motion.contacts.bonded.values();
+    EXPECT_EQ(std::count(bonded.begin(), bonded.end(), 1.0), 0) << method;
+  }
 }
 TEST(TileStep, BlocksAreDividedAnewWhereTheirNeighboursHaveChanged) {
   Simulation sim = testing::prepared(falling_heap()).sim;
