@@ -150,6 +150,7 @@ Result<PolygonSet> all_blocks(const Model& model, const Imports& imports, bool f
     set = std::move(cut.value());
   } else {
     set.report.notes = imports.notes;
+    set.report.left_out = imports.left_out;
     faults = fix_blocks(model, 0.0, first_imported, set);
     if (!faults.empty()) return faults;
   }

@@ -300,6 +300,7 @@ std::optional<Faults> merge_faces(const Model& model, const Imports& imports, Ar
 void report_lines(const Model& model, const Imports& imports, const Arrangement& a,
                   const LineWork& work, bool framed, const JoinedEnds& joined,
                   const std::function<bool(Vec2)>& in_rock, CutReport& report) {
+  report.left_out = imports.left_out;
   for (const auto* notes : {&imports.notes, &work.notes, &joined.notes}) {
     report.notes.insert(report.notes.end(), notes->begin(), notes->end());
   }

@@ -59,6 +59,7 @@ struct CutReport {
   int short_edges = 0;    ///< edges of cut blocks below min_edge
   int sharp_corners = 0;  ///< corners of cut blocks below min_angle
   std::vector<std::string> notes;  ///< what was imported and drawn at random, and what was left out
+  std::vector<std::string> left_out;  ///< those of these notes that say what was left out
   std::vector<std::string> warnings;  ///< joints that cut nothing, drawings in doubtful units
   double area_in = 0.0;               ///< of the outline without its openings, m2
   double area_out = 0.0;              ///< sum over the cut blocks, m2

@@ -153,6 +153,7 @@ class Taker {
     imports_.drawn_in.push_back(drawing_.units);
     imports_.last_digit.push_back(import_.scale * metres(import_.units) * drawing_.digits.unit());
     imports_.notes.push_back(note_of(import_, count_, drawing_, taken_));
+    if (!drawing_.skipped.empty()) imports_.left_out.push_back(imports_.notes.back());
     warn_of_faults();
     if (count_ > 0) return std::nullopt;
     return Fault{member_of(import_.where, "file"), imports_.notes.back(),

@@ -37,6 +37,7 @@ struct Imports {
   std::vector<std::optional<LengthUnit>> drawn_in;  ///< per import the unit given in the file
   std::vector<double> last_digit;  ///< per import one unit of the last digit of its coordinates, m
   std::vector<std::string> notes;  ///< per import what was read and what was left out
+  std::vector<std::string> left_out;  ///< those of imports of which anything was left out
   std::vector<std::string> warnings;  ///< parts of drawings that are left out for a fault
 };
 

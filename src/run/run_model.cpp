@@ -80,9 +80,7 @@ void add_cut_warnings(const CutReport& report, std::vector<std::string>& warning
                     counted(static_cast<std::size_t>(report.quality_merged), "sliver"),
                     report.quality_area, report.quality_merged == 1 ? "was" : "were"));
   }
-  for (const std::string& note : report.notes) {
-    if (note.find("left out") != std::string::npos) warnings.push_back(note);
-  }
+  warnings.insert(warnings.end(), report.left_out.begin(), report.left_out.end());
   warnings.insert(warnings.end(), report.warnings.begin(), report.warnings.end());
 }
 

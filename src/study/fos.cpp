@@ -167,8 +167,8 @@ void warn_of_trials(FosResult& r) {
           fmt::format("the trial of {:.6g} is undecided: {} after {} steps, and counts as failed",
                       trial.factor, trial.reason, trial.steps));
     }
-    if (!trial.reason.starts_with("diverged")) continue;
-    r.warnings.push_back(fmt::format("the trial of {:.6g} {}", trial.factor, trial.reason));
+    if (trial.diverged)
+      r.warnings.push_back(fmt::format("the trial of {:.6g} {}", trial.factor, trial.reason));
   }
 }
 

@@ -86,6 +86,7 @@ class Run {
     while (!over_ && sim_.motion.state.time < time) {
       if (stops_()) return end(TrialEnd::stopped, "stopped");
       if (const auto failure = step(sim_)) {
+        trial_.diverged = true;
         return end(TrialEnd::fails, "diverged: " + failure->message);
       }
       end_by(holding_.look(sim_));

@@ -50,6 +50,7 @@ struct Trial {
   double factor = 0.0;
   TrialEnd end = TrialEnd::stopped;
   std::string reason;         ///< a few words
+  bool diverged = false;      ///< a step of it failed
   double part = 0.0;          ///< largest part of its size by which a set of blocks has moved
   double displacement = 0.0;  ///< m, largest of a vertex since the start of the trial
   Id block = no_id;           ///< block of that vertex
