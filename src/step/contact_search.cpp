@@ -41,12 +41,11 @@ void begin_faces(Simulation& sim) {
   Motion& motion = sim.motion;
   FaceSet& faces = motion.contacts;
   FaceTiles& tiles = motion.tiled.tiles;
-  change_faces(sim, [&](FaceSet&, FaceStates& states) {
-    bond_faces(faces, states, sim.scene->blocks, motion.pose, motion.laws);
-    if (sim.scene->model.initial_stress) close_contacts(sim, states);
-  });
+  FaceStates states(faces.size());
+  bond_faces(faces, states, sim.scene->blocks, motion.pose, motion.laws);
+  if (sim.scene->model.initial_stress) close_contacts(sim, states);
+  put_faces(sim, states);
   evaluate_at_rest(sim, 1.0);
-  sum_face_forces(sim);
   end_at_rest(faces, tiles, sim.scene->blocks, motion.pose);
   for (auto* work : {&faces.friction_work, &faces.transfer}) work->fill(0.0);
   keep_trial(tiles, faces);

@@ -92,7 +92,6 @@ void start_newmark(Simulation& sim) {
   pose.x1 = pose.x;
   pose.y1 = pose.y;
   evaluate_at_rest(sim, state.step);
-  sum_face_forces(sim);
   end_at_rest(sim.motion.contacts, sim.motion.tiled.tiles, sim.scene->blocks, pose);
 }
 

@@ -35,7 +35,8 @@ void place_in_tiles(Simulation& sim);
 /// Contact activation (face_switching.hpp) of the faces.
 void switch_in_tiles(Simulation& sim, const StepTaken& taken);
 
-/// Evaluates the faces at n again, from their states at n - 1. step: between, s.
+/// Evaluates the faces at n again, from their states at n - 1: memory, forces on the blocks. step:
+/// between, s.
 void evaluate_at_rest(Simulation& sim, double step);
 
 /// Makes a new list of the faces.
