@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <tuple>
 
 #include "contacts/evaluate_face.hpp"
 #include "contacts/face_preload.hpp"
@@ -115,22 +116,22 @@ bool corner_leans(const FaceSet& c, const BlockSet& b, const Pose& pose, const F
 bool decide_activity(FaceSet& c, const BlockSet& b, const Pose& pose, WasActive before,
                      std::size_t k) {
   const auto verdict = [&] {
-    return std::array{c.acts[k], c.leans[k], c.locked_closure_a[k], c.locked_closure_b[k]};
+    return std::tuple{c.acts(k), c.leans(k), c.locked_closure_a[k], c.locked_closure_b[k]};
   };
   const auto was = verdict();
   const FacePoints at = face_points(c, pose.x, pose.y, k);
   const Face face = face_at(c, b, pose.x, pose.y, k);
   const double closure = std::max(face.drawn.a, face.drawn.b);
-  if (!before.stored) c.leans[k] = corner_leans(c, b, pose, at, face, k) ? 1.0 : 0.0;
+  if (!before.stored) c.set(FaceFlag::leans, k, corner_leans(c, b, pose, at, face, k));
   if (!before.on) {
-    const FaceEnds locked = c.leans[k] > 0.0 ? locked_closure(c, face, k) : FaceEnds{};
+    const FaceEnds locked = c.leans(k) ? locked_closure(c, face, k) : FaceEnds{};
     c.locked_closure_a[k] = locked.a;
     c.locked_closure_b[k] = locked.b;
   }
   if (closure <= c.noise) {
-    c.acts[k] = 1.0;
+    c.set(FaceFlag::acts, k);
   } else if (!before.on) {
-    c.acts[k] = acts_from_the_start(c, b, pose, at, face, k) ? 1.0 : 0.0;
+    c.set(FaceFlag::acts, k, acts_from_the_start(c, b, pose, at, face, k));
   }
   return verdict() != was;
 }

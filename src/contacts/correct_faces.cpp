@@ -37,7 +37,7 @@ CornerForces recompute_shear(FaceSet& c, FaceFields& m, const Face& face, const 
   const auto again = [&](double normal, double trial, double slipped, double& force, double& slip) {
     const double limit = coulomb_limit(cohesion, c.friction[k], normal);
     const Shear next =
-        cut<true>(trial, spring, inverse_of(spring), c.bonded[k] > 0.0 ? unlimited_shear : limit);
+        cut<true>(trial, spring, inverse_of(spring), c.bonded(k) ? unlimited_shear : limit);
     // As lost(), for a change of T_n alone: the work of T_{n-1} stays as it was, and kept u_{n-1}
     // is u_tr - slipped.
     const auto taken = [&](const Shear& s) {

@@ -33,12 +33,13 @@ FaceInputs inputs_of(const FaceSet& c, const FaceScene& scene, double step,
                      const FaceFields& before, std::size_t k) {
   const BlockSet& b = scene.blocks;
   const Pose& pose = scene.pose;
+  const FacesOfLaw& law = c.of_law(k);
   const auto inverse_mass = [&](Id from, Id to) {
     return dashpots ? inverse_mass_of_edge(scene.masses, from, to) : EdgeInverseMass{};
   };
-  return {face_pair(c, b.exterior_cosine.data(), b.exterior_sine.data(), k),
-          {c.shear_stiffness[k], c.friction[k], c.cohesion[k], c.bonded[k] > 0.0, c.zeta[k],
-           c.shear_zeta[k], c.rebound[k]},
+  return {face_pair(c, b, k),
+          {c.shear_stiffness[k], c.friction[k], c.cohesion[k], c.bonded(k), law.zeta,
+           law.shear_zeta, law.rebound},
           face_points(c, pose.x, pose.y, k),
           face_points(c, pose.x1, pose.y1, k),
           face_before<dashpots>(c, pose, before, k),
@@ -100,7 +101,7 @@ void decide_face(FaceSet& c, const FaceScene& scene, double step, const FaceFiel
   EvaluatedFace now = evaluate_face(c, scene, step, before, k);
   if (now.asks && decide_activity(c, b, pose, {before.energy > 0.0, before.gate > 0.0}, k))
     now = evaluate_face(c, scene, step, before, k);
-  if (c.bonded[k] == 0.0 && c.carries_tension[k] == 0.0) return;
+  if (!c.bonded(k) && !c.carries_tension(k)) return;
   if (!bond_fails(c, b, now.state, k)) return;
   const double stored = normal_energy(c, b, pose, k);
   break_bond(c, b, scene.laws, now.state, k);
@@ -109,15 +110,16 @@ void decide_face(FaceSet& c, const FaceScene& scene, double step, const FaceFiel
 
 void count_failures(FaceSet& c) {
   c.for_failures([&](std::size_t k) {
-    if (c.failure[k] == bond_breaks) ++c.broken;
-    c.failure[k] = 0.0;
+    if (c.is(FaceFlag::bond_breaks, k)) ++c.broken;
+    c.set(FaceFlag::fails, k, false);
+    c.set(FaceFlag::bond_breaks, k, false);
   });
   std::fill(c.chunk_fails.begin(), c.chunk_fails.end(), std::uint8_t{0});
 }
 
 Face face_at(const FaceSet& c, const BlockSet& b, const std::vector<double>& x,
              const std::vector<double>& y, std::size_t k, double risen) {
-  FacePair pair = face_pair(c, b.exterior_cosine.data(), b.exterior_sine.data(), k);
+  FacePair pair = face_pair(c, b, k);
   pair.offset = {pair.offset.a - risen, pair.offset.b - risen};
   return face_between(face_points(c, x, y, k), pair);
 }
@@ -127,7 +129,7 @@ FaceEnds slip_of(const FaceSet& c, const Face& face, const FacePoints& at, const
   const auto corners = [&](const FacePoints& p) {
     return coordinates_of(p, c.inverse_e[k], c.inverse_f[k]);
   };
-  return motion_of(face, corners(at), corners(then), length_ratio(c, k)).slip;
+  return motion_of(face, corners(at), corners(then), c.inverse_e[k] / c.inverse_f[k]).slip;
 }
 
 }  // namespace edda

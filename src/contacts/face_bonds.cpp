@@ -13,23 +13,16 @@
 namespace edda {
 namespace {
 
-/// Glues face k temporarily.
-void glue_for_now(FaceSet& c, std::size_t k) {
-  c.saved_bond[k] = 1.0 + c.bonded[k] + 2.0 * c.carries_tension[k];
-  c.glued[k] = c.bonded[k] = c.carries_tension[k] = 1.0;
-}
-
 BondFailure failure_now(const FaceSet& c, const BlockSet& b, const FaceFields& now, std::size_t k) {
-  return failure_of(
-      {c.bonded[k] > 0.0, c.carries_tension[k] > 0.0, c.glued[k] > 0.0, c.friction[k],
-       c.cohesion[k], c.tension[k], c.bond_strength, drawn_gap * smaller_size(c, b, k)},
-      {{now.closure_a, now.closure_b},
-       {now.normal_a, now.normal_b},
-       now.shear_a + now.shear_b,
-       now.spring,
-       now.length,
-       now.cohesive},
-      c.noise);
+  return failure_of({c.bonded(k), c.carries_tension(k), c.glued(k), c.friction[k], c.cohesion[k],
+                     c.tension[k], c.bond_strength, drawn_gap * smaller_size(c, b, k)},
+                    {{now.closure_a, now.closure_b},
+                     {now.normal_a, now.normal_b},
+                     now.shear_a + now.shear_b,
+                     now.spring,
+                     now.length,
+                     now.cohesive},
+                    c.noise);
 }
 
 }  // namespace
@@ -61,7 +54,7 @@ void fit(FaceSet& c, FaceStates& states, const BlockSet& b, const Face& face, st
 void set_residual_tension(FaceSet& c, const LawTable& laws, std::size_t k) {
   const Law& law = laws.rows[c.law[k]];
   c.tension[k] = law.residual_tension * laws.thickness;
-  c.carries_tension[k] = law.residual_tension > 0.0 ? 1.0 : 0.0;
+  c.set(FaceFlag::tension, k, law.residual_tension > 0.0);
 }
 
 }  // namespace
@@ -93,7 +86,7 @@ void bond_faces(FaceSet& c, FaceStates& states, const BlockSet& b, const Pose& p
     if (other) {
       c.law[k] = drawn;
       set_residual_strength(c, laws, k);
-      c.carries_tension[k] = 0.0;
+      c.set(FaceFlag::tension, k, false);
       changes = true;
     }
     if (!has_bond) continue;
@@ -101,11 +94,12 @@ void bond_faces(FaceSet& c, FaceStates& states, const BlockSet& b, const Pose& p
     face = face_at(c, b, pose.x, pose.y, k);
     const bool flush =
         std::min(face.closure.a, face.closure.b) >= -touching_gap * smaller_size(c, b, k);
-    c.acts[k] = c.leans[k] = 1.0;
+    c.set(FaceFlag::acts, k);
+    c.set(FaceFlag::leans, k);
     if (weakens) c.slip_so_far[k] = 0.0;
-    c.bonded[k] = weakens ? 0.0 : 1.0;
-    c.glued[k] = law.glued ? 1.0 : 0.0;
-    c.carries_tension[k] = flush && (law.glued || law.peak_tension > 0.0) ? 1.0 : 0.0;
+    c.set_bond(weakens ? BondState::residual : BondState::intact, k);
+    c.set(FaceFlag::glued, k, law.glued);
+    c.set(FaceFlag::tension, k, flush && (law.glued || law.peak_tension > 0.0));
     c.friction[k] = law.peak_friction;
     c.cohesion[k] = law.peak_cohesion * laws.thickness;
     c.tension[k] = law.peak_tension * laws.thickness;
@@ -120,17 +114,17 @@ bool bond_fails(const FaceSet& c, const BlockSet& b, const FaceFields& now, std:
 void break_bond(FaceSet& c, const BlockSet& b, const LawTable& laws, const FaceFields& now,
                 std::size_t k) {
   // A flexural crack (mode I), from one end while the other is pressed, keeps its shear strength.
-  const bool cracks = c.bonded[k] > 0.0 && c.carries_tension[k] > 0.0 &&
+  const bool cracks = c.bonded(k) && c.carries_tension(k) &&
                       std::max(now.closure_a, now.closure_b) > 0.0 &&
                       !failure_now(c, b, now, k).sheared;
-  const bool breaks = c.bonded[k] > 0.0 && !cracks;
+  const bool breaks = c.bonded(k) && !cracks;
   if (cracks) set_residual_tension(c, laws, k);
-  if (!cracks) c.bonded[k] = 0.0;
+  c.set_bond(cracks ? BondState::cracked : BondState::residual, k);
   if (breaks) set_residual_strength(c, laws, k);
-  c.mark_failure(k, breaks ? bond_breaks : 1.0);
+  c.mark_failure(k, breaks);
   // The face releases altogether if its tension exceeds the residual tensile strength, too.
-  if (failure_now(c, b, now, k).torn) c.carries_tension[k] = 0.0;
-  c.opened[k] = 1.0;
+  if (failure_now(c, b, now, k).torn) c.set(FaceFlag::tension, k, false);
+  c.set(FaceFlag::opened, k);
 }
 
 void account_failure_energy(FaceSet& c, double lost, std::size_t k) {
@@ -143,40 +137,37 @@ void glue_faces(FaceSet& c, const FaceStates& states, bool also_later) {
   for (std::size_t k = 0; k < c.size(); ++k) {
     const FaceFields& m = states.now[k];
     const FaceEnds drawn{m.closure_a - c.locked_closure_a[k], m.closure_b - c.locked_closure_b[k]};
-    if (c.glued[k] == 0.0 && meets_within(FaceRow{c, k, m, {}, false, false}, c.noise) &&
+    if (!c.glued(k) && meets_within(FaceRow{c, k, m, {}, false, false}, c.noise) &&
         lies_flush_as_drawn(drawn, m.length))
-      glue_for_now(c, k);
+      c.set(FaceFlag::glued_by_stage, k);
   }
 }
 
 bool glue_if_whole(FaceSet& c, FaceEnds closure, std::size_t k) {
   if (std::min(closure.a, closure.b) < 0.0) return false;
-  glue_for_now(c, k);
+  c.set(FaceFlag::glued_by_stage, k);
   return true;
 }
 
 void unglue_faces(FaceSet& c, const BlockSet& b, const Pose& pose) {
   c.gluing = false;
   for (std::size_t k = 0; k < c.size(); ++k) {
-    if (c.saved_bond[k] == 0.0) continue;
-    const double had = c.saved_bond[k] - 1.0, stored = normal_energy(c, b, pose, k);
-    c.glued[k] = 0.0;
-    c.carries_tension[k] = had >= 2.0 ? 1.0 : 0.0;
-    c.bonded[k] = had == 1.0 || had == 3.0 ? 1.0 : 0.0;
-    c.saved_bond[k] = 0.0;
+    if (!c.is(FaceFlag::glued_by_stage, k)) continue;
+    const double stored = normal_energy(c, b, pose, k);
+    c.set(FaceFlag::glued_by_stage, k, false);
     account_failure_energy(c, stored - normal_energy(c, b, pose, k), k);
-    c.mark_failure(k, 1.0);
+    c.mark_failure(k, false);
   }
 }
 
 void set_face_dashpots(FaceSet& c, const LawTable& laws, double damping) {
   // Dashpots that are removed have yet to do their work of the current step.
   c.dashpots = damping > 0.0 || laws.any_dashpots || c.dashpots;
-  for (std::size_t k = 0; k < c.size(); ++k) {
-    const Law& law = laws.rows[c.law[k]];
-    c.zeta[k] = laws.damping_of(law, damping);
-    c.shear_zeta[k] = law.dashpots ? law.shear_damping : 0.0;
-    c.rebound[k] = law.dashpots ? law.rebound : 0.0;
+  for (std::size_t r = 0; r < laws.rows.size(); ++r) {
+    const Law& law = laws.rows[r];
+    c.of_laws[r].zeta = laws.damping_of(law, damping);
+    c.of_laws[r].shear_zeta = law.dashpots ? law.shear_damping : 0.0;
+    c.of_laws[r].rebound = law.dashpots ? law.rebound : 0.0;
   }
 }
 

@@ -37,7 +37,7 @@ void set_residual_strength(FaceSet& faces, const LawTable& laws, std::size_t k);
 /// Whether any face has a bond that may fail.
 inline bool has_bonds(const FaceSet& faces) {
   for (std::size_t k = 0; k < faces.size(); ++k) {
-    if (faces.bonded[k] > 0.0 && faces.glued[k] == 0.0) return true;
+    if (faces.bonded(k) && !faces.glued(k)) return true;
   }
   return false;
 }

@@ -19,7 +19,7 @@ std::array<Vec2, 4> list(const CornerForces& f) {
 double normal_energy_to(const Face& face, const FaceSet& c, const BlockSet& b, const Pose& pose,
                         std::size_t k) {
   return stored_between(face_at(c, b, pose.x1, pose.y1, k), face_points(c, pose.x1, pose.y1, k),
-                        face, face_points(c, pose.x, pose.y, k), c.carries_tension[k] > 0.0);
+                        face, face_points(c, pose.x, pose.y, k), c.carries_tension(k));
 }
 
 }  // namespace
@@ -48,7 +48,7 @@ double face_energy(const FaceSet& c, const BlockSet& b, const Pose& pose, const 
                    const Face& face, std::size_t k) {
   const FaceEnds had = old.slip;
   const bool slips = old.have_slip();
-  const bool open = !old.stores && !(c.carries_tension[k] > 0.0);
+  const bool open = !old.stores && !c.carries_tension(k);
   if (open && !slips) return 0.0;
   double shear = 0.0;
   if (slips) {

@@ -30,8 +30,8 @@ void add_to_joint(JointStress& joint, const FaceSet& c, const RequiredForces& re
   const Id k = required.face;
   const double length = required.length;
   joint.length += length;
-  if (c.glued[k] > 0.0) return;
-  const double tension = c.carries_tension[k] > 0.0 ? c.tension[k] * length : 0.0;
+  if (c.glued(k)) return;
+  const double tension = c.carries_tension(k) ? c.tension[k] * length : 0.0;
   const double normal = required.normal.a + required.normal.b;
   const double shear = std::abs(required.shear.a + required.shear.b);
   if (normal < -tension) joint.torn += length;
@@ -90,9 +90,10 @@ std::vector<JointStress> preload_faces(FaceSet& c, FaceStates& states, const Blo
     const EndForces on = traction(c.facing[k], 1.0 - drawn.eta.b, 1.0 - drawn.eta.a);
     const FaceEnds normal{dot(on.at_to, n), dot(on.at_from, n)};
     const FaceEnds shear{dot(on.at_to, drawn.t), dot(on.at_from, drawn.t)};
-    c.acts[k] = c.leans[k] = 1.0;
+    c.set(FaceFlag::acts, k);
+    c.set(FaceFlag::leans, k);
     required.push_back({static_cast<Id>(k), drawn.length, normal, shear});
-    const bool bears = normal.a + normal.b > 0.0 || c.carries_tension[k] > 0.0;
+    const bool bears = normal.a + normal.b > 0.0 || c.carries_tension(k);
     if (!bears) continue;
     // A locked closure moves the ends of the overlap inward (face.hpp): a little more closure makes
     // up for the lost length.
@@ -101,7 +102,7 @@ std::vector<JointStress> preload_faces(FaceSet& c, FaceStates& states, const Blo
     constexpr int passes = 4;
     for (int pass = 0; pass < passes; ++pass) {
       const FaceEnds closure =
-          closures_of(normal, c.stiffness[k] * drawn.length * drawn.gate, c.at_ends[k] > 0.0);
+          closures_of(normal, c.stiffness[k] * drawn.length * drawn.gate, c.of_law(k).at_ends);
       c.locked_closure_a[k] = more * closure.a - drawn.drawn.a;
       c.locked_closure_b[k] = more * closure.b - drawn.drawn.b;
       face = face_at(c, b, pose.x, pose.y, k);

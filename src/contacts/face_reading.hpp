@@ -37,7 +37,7 @@ struct FaceRow {
 
 /// Whether it carries force, or is bonded and would carry it at any displacement.
 inline bool is_closed(const FaceRow& r) {
-  return r.state.energy > 0.0 || (r.of.bonded[r.k] > 0.0 && r.state.gate > 0.0);
+  return r.state.energy > 0.0 || (r.of.bonded(r.k) && r.state.gate > 0.0);
 }
 
 /// The larger drawn closure of the two ends of face k, m, where they are closed by so much.
@@ -50,7 +50,7 @@ inline double closure_of(const FaceRow& r) {
 
 /// Whether the face is closed, or its edges touch within this gap, m.
 inline bool meets_within(const FaceRow& r, double gap) {
-  return is_closed(r) || (r.of.acts[r.k] > 0.0 && r.state.gate > 0.0 && closure_of(r) >= -gap);
+  return is_closed(r) || (r.of.acts(r.k) && r.state.gate > 0.0 && closure_of(r) >= -gap);
 }
 /// The same within rounding, corners that touch as drawn included (closed_by()).
 inline bool meets(const FaceRow& r) {
@@ -76,14 +76,14 @@ inline double shear_force(const FaceRow& r) {
 /// Shear strength c L + N tan(phi), N (theory, section 5.1), of bonds as they hold at present.
 inline double shear_strength(const FaceRow& r) {
   const FaceSet& f = r.of;
-  const double held = f.bonded[r.k] > 0.0 ? f.bond_strength : 1.0;
+  const double held = f.bonded(r.k) ? f.bond_strength : 1.0;
   return coulomb_limit(held * f.cohesion[r.k] * r.state.cohesive, f.friction[r.k], normal_force(r));
 }
 
 /// Whether Coulomb's limit has cut the shear force of one of its ends in the last step.
 inline bool slides(const FaceRow& r) {
   const FaceFields& m = r.state;
-  return is_closed(r) && r.of.bonded[r.k] == 0.0 &&
+  return is_closed(r) && !r.of.bonded(r.k) &&
          is_cut(FaceEnds{m.trial_a, m.trial_b}, FaceEnds{m.slip_a, m.slip_b});
 }
 

@@ -16,38 +16,20 @@
 
 namespace edda {
 
-/// Properties of a face, its current strength, and its history.
+/// Constants of a face, its current strength, and its history.
 template <class C>
 struct FaceProperties {
   C stiffness, shear_stiffness;  ///< k, ks times thickness, N/m per m of overlap
   C inverse_e, inverse_f, gate_from, gate_scale, passing;  ///< as in FacePair
-  C at_ends;  ///< 1: the stiffness is a penalty: the integral is taken at the ends
-
-  // Decided while the face stores no energy; valid as long as it exists.
-  C acts;   ///< 1: the face acts; 0: its edges are far sides of blocks, which do not meet
-  C leans;  ///< 1: no third block lies beside the corner that leans
 
   C friction;  ///< tan(phi)
   C cohesion;  ///< c times thickness, N per m of overlap
+  C tension;  ///< tensile strength times thickness, N per m of overlap, of FaceSet::carries_tension
   C locked_closure_a,
       locked_closure_b;  ///< o, closure added at the ends to that of the surfaces as drawn, m
-  C carries_tension;     ///< 1: carries tension
-  C bonded;              ///< 1: has its peak strength; its shear is not cut end by end
-  C zeta, shear_zeta;    ///< dashpots, as fractions of critical: set_face_dashpots()
-  C rebound;             ///< of dashpots in proportion to the pressure; 0: they are linear
-
-  C tension;  ///< tensile strength times thickness, N per m of overlap; used where carries_tension
-              ///< is 1
-  C glued;    ///< 1: never opens or slides
   C slip_so_far;    ///< accumulated slip, m, for slip-dependent laws; infinite: has its residual
                     ///< strength
   C dilation_left;  ///< m by which dilation has yet to open the joint
-  C saved_bond;  ///< state of a temporarily glued face before that, 1 + bonded + 2 carries_tension;
-                 ///< else 0
-  C failure;  ///< 1: fails in tension in the current step, 2: its bond breaks; the energy released
-              ///< is fracture energy
-  C opened;   ///< 1: has opened after having been closed
-  C slipped;  ///< 1: has slid at least once
   C friction_work, damping_work, fracture_work, transfer;  ///< accumulated, J
 };
 
@@ -69,34 +51,49 @@ inline constexpr FaceProperty<C> face_property_list[] = {
     {"gate_from", "1", &FaceProperties<C>::gate_from, false},
     {"gate_scale", "1", &FaceProperties<C>::gate_scale, false},
     {"passing", "m", &FaceProperties<C>::passing, false},
-    {"at_ends", "1", &FaceProperties<C>::at_ends, false},
-    {"acts", "1", &FaceProperties<C>::acts, true},
-    {"leans", "1", &FaceProperties<C>::leans, true},
     {"friction", "1", &FaceProperties<C>::friction, true},
     {"cohesion", "N/m", &FaceProperties<C>::cohesion, true},
+    {"tension", "N/m", &FaceProperties<C>::tension, true},
     {"locked_closure_a", "m", &FaceProperties<C>::locked_closure_a, true},
     {"locked_closure_b", "m", &FaceProperties<C>::locked_closure_b, true},
-    {"carries_tension", "1", &FaceProperties<C>::carries_tension, true},
-    {"bonded", "1", &FaceProperties<C>::bonded, true},
-    {"zeta", "1", &FaceProperties<C>::zeta, false},
-    {"shear_zeta", "1", &FaceProperties<C>::shear_zeta, false},
-    {"rebound", "1", &FaceProperties<C>::rebound, false},
-    {"tension", "N/m", &FaceProperties<C>::tension, true},
-    {"glued", "1", &FaceProperties<C>::glued, true},
     {"slip_so_far", "m", &FaceProperties<C>::slip_so_far, true},
     {"dilation_left", "m", &FaceProperties<C>::dilation_left, true},
-    {"saved_bond", "1", &FaceProperties<C>::saved_bond, true},
-    {"failure", "1", &FaceProperties<C>::failure, true},
-    {"opened", "1", &FaceProperties<C>::opened, true},
-    {"slipped", "1", &FaceProperties<C>::slipped, true},
     {"friction_work", "J", &FaceProperties<C>::friction_work, true},
     {"damping_work", "J", &FaceProperties<C>::damping_work, true},
     {"fracture_work", "J", &FaceProperties<C>::fracture_work, true},
     {"transfer", "J", &FaceProperties<C>::transfer, true}};
 inline constexpr auto& face_properties = face_property_list<RowColumn>;
 
-/// Value of FaceSet::failure where a bond breaks.
-inline constexpr double bond_breaks = 2.0;
+/// What is decided of a face, a bit each.
+enum class FaceFlag : std::uint16_t {
+  // While the face stores no energy; valid as long as it exists.
+  acts = 1u << 0,   ///< else its edges are far sides of blocks, which do not meet
+  leans = 1u << 1,  ///< no third block lies beside the corner that leans
+  // Its bond (BondState), and whether it transmits tension.
+  intact = 1u << 2,
+  cracked = 1u << 3,
+  tension = 1u << 4,
+  glued = 1u << 5,           ///< by its law: it never opens or slides
+  glued_by_stage = 1u << 6,  ///< for the time of a stage, whatever its bond
+  // In the current step.
+  fails = 1u << 7,        ///< its bond, or its tension: the energy released is fracture energy
+  bond_breaks = 1u << 8,  ///< that of its bond
+  // Since the start.
+  opened = 1u << 9,  ///< after having been closed
+  slipped = 1u << 10
+};
+
+/// Bond of a face, which as a whole has its peak strength until it breaks. A face that tension has
+/// cracked from one end while the other is pressed keeps the peak strength in shear, and has the
+/// residual one in tension. After that, or without a bond, it has the residual one.
+enum class BondState : std::uint8_t { residual, cracked, intact };
+
+/// What a law gives all its faces.
+struct FacesOfLaw {
+  bool at_ends = false;  ///< the stiffness is a penalty: the integral is taken at the ends
+  double zeta = 0.0, shear_zeta = 0.0;  ///< dashpots, as fractions of critical
+  double rebound = 0.0;  ///< of dashpots in proportion to the pressure; 0: they are linear
+};
 
 struct FaceSet : RowTable<FaceProperties<RowColumn>, face_property_list<RowColumn>> {
   std::size_t size() const { return edge.size(); }
@@ -105,6 +102,42 @@ struct FaceSet : RowTable<FaceProperties<RowColumn>, face_property_list<RowColum
   std::vector<Id> edge, facing;          ///< e < f, of two blocks
   std::vector<Id> edge_end, facing_end;  ///< their second corners
   std::vector<std::uint16_t> law;        ///< row of the LawTable
+
+  std::vector<std::uint16_t> flags;  ///< bits of FaceFlag
+
+  bool is(FaceFlag flag, std::size_t k) const {
+    return (flags[k] & static_cast<std::uint16_t>(flag)) != 0;
+  }
+  void set(FaceFlag flag, std::size_t k, bool to = true) {
+    const auto bit = static_cast<std::uint16_t>(flag);
+    flags[k] = static_cast<std::uint16_t>(to ? flags[k] | bit : flags[k] & ~bit);
+  }
+  bool acts(std::size_t k) const { return is(FaceFlag::acts, k); }
+  bool leans(std::size_t k) const { return is(FaceFlag::leans, k); }
+  BondState bond(std::size_t k) const {
+    return is(FaceFlag::intact, k)    ? BondState::intact
+           : is(FaceFlag::cracked, k) ? BondState::cracked
+                                      : BondState::residual;
+  }
+  void set_bond(BondState to, std::size_t k) {
+    set(FaceFlag::intact, k, to == BondState::intact);
+    set(FaceFlag::cracked, k, to == BondState::cracked);
+  }
+  /// Whether the face never opens or slides.
+  bool glued(std::size_t k) const {
+    return is(FaceFlag::glued, k) || is(FaceFlag::glued_by_stage, k);
+  }
+  /// Whether it breaks as a whole instead of sliding end by end.
+  bool bonded(std::size_t k) const {
+    return bond(k) != BondState::residual || is(FaceFlag::glued_by_stage, k);
+  }
+  /// Whether it transmits tension.
+  bool carries_tension(std::size_t k) const {
+    return is(FaceFlag::tension, k) || is(FaceFlag::glued_by_stage, k);
+  }
+
+  std::vector<FacesOfLaw> of_laws;  ///< [rows of the LawTable]
+  const FacesOfLaw& of_law(std::size_t k) const { return of_laws[law[k]]; }
 
   bool dashpots = false;  ///< some face has dashpots, or had them in the current step
   bool slip_laws =
@@ -118,11 +151,12 @@ struct FaceSet : RowTable<FaceProperties<RowColumn>, face_property_list<RowColum
 
   static constexpr std::size_t chunk = 16;  ///< faces that share a mark of `chunk_fails`
   std::size_t chunks() const { return (size() + chunk - 1) / chunk; }
-  std::vector<std::uint8_t> chunk_fails;  ///< [chunks] 1: `failure` is set for a face in it
+  std::vector<std::uint8_t> chunk_fails;  ///< [chunks] 1: a face in it fails in the current step
 
   /// Marks face k as failing in the current step.
-  void mark_failure(std::size_t k, double how) {
-    failure[k] = how;
+  void mark_failure(std::size_t k, bool bond_breaks) {
+    set(FaceFlag::fails, k);
+    set(FaceFlag::bond_breaks, k, bond_breaks);
     std::atomic_ref<std::uint8_t>(chunk_fails[k / chunk]).store(1, std::memory_order_relaxed);
   }
   /// Calls visit(k) for the faces that fail in the current step.
@@ -131,7 +165,7 @@ struct FaceSet : RowTable<FaceProperties<RowColumn>, face_property_list<RowColum
     for (std::size_t q = 0; q < chunk_fails.size(); ++q) {
       if (chunk_fails[q] == 0) continue;
       for (std::size_t k = q * chunk; k < std::min((q + 1) * chunk, size()); ++k) {
-        if (failure[k] != 0.0) visit(k);
+        if (is(FaceFlag::fails, k)) visit(k);
       }
     }
   }
@@ -168,44 +202,41 @@ struct FaceSet : RowTable<FaceProperties<RowColumn>, face_property_list<RowColum
   }
 };
 
-/// The properties of face k.
-inline FaceProperties<double> properties_of(const FaceSet& c, std::size_t k) {
-  FaceProperties<double> row;
+/// Face k as a value.
+struct FaceRecord {
+  FaceProperties<double> properties;
+  std::uint16_t flags;
+};
+inline FaceRecord record_of(const FaceSet& c, std::size_t k) {
+  FaceRecord row{{}, c.flags[k]};
   for (std::size_t i = 0; i < std::size(face_properties); ++i)
-    row.*face_property_list<double>[i].values = (c.*face_properties[i].values)[k];
+    row.properties.*face_property_list<double>[i].values = (c.*face_properties[i].values)[k];
   return row;
 }
-inline void set_properties(FaceSet& c, std::size_t k, const FaceProperties<double>& row) {
+inline void set_record(FaceSet& c, std::size_t k, const FaceRecord& row) {
+  c.flags[k] = row.flags;
   for (std::size_t i = 0; i < std::size(face_properties); ++i)
-    (c.*face_properties[i].values)[k] = row.*face_property_list<double>[i].values;
-}
-
-/// FacePair::length_ratio of face k.
-template <class Faces>
-EDDA_INLINE double length_ratio(const Faces& c, std::size_t k) {
-  return c.inverse_e[k] / c.inverse_f[k];
+    (c.*face_properties[i].values)[k] = row.properties.*face_property_list<double>[i].values;
 }
 
 /// The element data of face k in its current state.
-template <class Faces>
-EDDA_INLINE FacePair face_pair(const Faces& c, const double* exterior_cosine,
-                               const double* exterior_sine, std::size_t k) {
+inline FacePair face_pair(const FaceSet& c, const BlockSet& b, std::size_t k) {
   FacePair p;
-  p.stiffness = c.stiffness[k] * c.acts[k];
+  p.stiffness = c.acts(k) ? c.stiffness[k] : 0.0;
   p.offset = {c.locked_closure_a[k], c.locked_closure_b[k]};
-  p.ends = c.at_ends[k] * c.leans[k];
-  p.carries_tension = c.carries_tension[k];
+  p.ends = c.of_law(k).at_ends && c.leans(k) ? 1.0 : 0.0;
+  p.carries_tension = c.carries_tension(k) ? 1.0 : 0.0;
   p.inverse_e = c.inverse_e[k];
   p.inverse_f = c.inverse_f[k];
-  p.length_ratio = length_ratio(c, k);
+  p.length_ratio = c.inverse_e[k] / c.inverse_f[k];
   p.gate_from = c.gate_from[k];
   p.gate_scale = c.gate_scale[k];
   p.passing = c.passing[k];
-  const Id p1 = c.edge[k], p2 = c.edge_end[k], q1 = c.facing[k], q2 = c.facing_end[k];
-  p.turn_p1 = {exterior_cosine[p1], exterior_sine[p1]};
-  p.turn_p2 = {exterior_cosine[p2], exterior_sine[p2]};
-  p.turn_q1 = {exterior_cosine[q1], exterior_sine[q1]};
-  p.turn_q2 = {exterior_cosine[q2], exterior_sine[q2]};
+  const auto turn = [&](Id v) { return Vec2{b.exterior_cosine[v], b.exterior_sine[v]}; };
+  p.turn_p1 = turn(c.edge[k]);
+  p.turn_p2 = turn(c.edge_end[k]);
+  p.turn_q1 = turn(c.facing[k]);
+  p.turn_q2 = turn(c.facing_end[k]);
   return p;
 }
 
@@ -219,17 +250,15 @@ inline double smaller_size(const FaceSet& c, const BlockSet& b, std::size_t k) {
       std::min(b.area[b.vertex_block[c.edge[k]]], b.area[b.vertex_block[c.facing[k]]]));
 }
 
-template <class Faces, class Values>
-EDDA_INLINE FacePoints face_points(const Faces& c, const Values& x, const Values& y,
-                                   std::size_t k) {
+inline FacePoints face_points(const FaceSet& c, const std::vector<double>& x,
+                              const std::vector<double>& y, std::size_t k) {
   const Id p1 = c.edge[k], p2 = c.edge_end[k], q1 = c.facing[k], q2 = c.facing_end[k];
   return {{x[p1], y[p1]}, {x[p2], y[p2]}, {x[q1], y[q1]}, {x[q2], y[q2]}};
 }
 
 /// Coordinates of the corners of face k in its frame at these positions.
-template <class Faces, class Values>
-EDDA_INLINE EdgeCoordinates coordinates_at(const Faces& c, const Values& x, const Values& y,
-                                           std::size_t k) {
+inline EdgeCoordinates coordinates_at(const FaceSet& c, const std::vector<double>& x,
+                                      const std::vector<double>& y, std::size_t k) {
   return coordinates_of(face_points(c, x, y, k), c.inverse_e[k], c.inverse_f[k]);
 }
 

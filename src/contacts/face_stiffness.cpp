@@ -51,24 +51,25 @@ FaceStiffness face_stiffness(const FaceSet& c, const FaceScene& scene, double st
   const Pose& pose = scene.pose;
   FaceStiffness s;
   const FacePoints at = face_points(c, pose.x, pose.y, k);
-  const FacePair pair = face_pair(c, b.exterior_cosine.data(), b.exterior_sine.data(), k);
+  const FacePair pair = face_pair(c, b, k);
   const Face face = face_between(at, pair);
   if (!(face.gate > 0.0) || !(pair.stiffness > 0.0)) return s;
   s.normal = end_stiffness(face, pair, taken.near);
   const double largest = std::max(face.closure.a, face.closure.b) + taken.near;
-  const bool touches = largest >= 0.0 || c.bonded[k] > 0.0 || c.carries_tension[k] > 0.0;
+  const bool touches = largest >= 0.0 || c.bonded(k) || c.carries_tension(k);
   const double spring = touches ? 0.5 * c.shear_stiffness[k] * face.length * face.gate : 0.0;
   s.shear_a = taken.a_slides ? 0.0 : spring;
   s.shear_b = taken.b_slides ? 0.0 : spring;
   if (c.dashpots) {
+    const FacesOfLaw& law = c.of_law(k);
     const double across = 0.5 * pair.stiffness * face.length * face.gate;
     const auto damping = [&](double p, double zeta, double xi, double eta) {
       return dashpot(c, scene.masses, p, zeta, xi, eta, k) / step;
     };
-    if (s.normal.aa > 0.0) s.normal.aa += damping(across, c.zeta[k], face.xi.a, face.eta.a);
-    if (s.normal.bb > 0.0) s.normal.bb += damping(across, c.zeta[k], face.xi.b, face.eta.b);
-    if (s.shear_a > 0.0) s.shear_a += damping(spring, c.shear_zeta[k], face.xi.a, face.eta.a);
-    if (s.shear_b > 0.0) s.shear_b += damping(spring, c.shear_zeta[k], face.xi.b, face.eta.b);
+    if (s.normal.aa > 0.0) s.normal.aa += damping(across, law.zeta, face.xi.a, face.eta.a);
+    if (s.normal.bb > 0.0) s.normal.bb += damping(across, law.zeta, face.xi.b, face.eta.b);
+    if (s.shear_a > 0.0) s.shear_a += damping(spring, law.shear_zeta, face.xi.a, face.eta.a);
+    if (s.shear_b > 0.0) s.shear_b += damping(spring, law.shear_zeta, face.xi.b, face.eta.b);
   }
   s.normal_a = end_forces(at, face, {1.0, 0.0}, {});
   s.normal_b = end_forces(at, face, {0.0, 1.0}, {});

@@ -24,8 +24,7 @@ std::vector<Listed> wanted_faces(const std::vector<EdgePair>& near, const FaceSe
                                  const std::vector<std::uint8_t>& carry, const BlockSet& b,
                                  const State& state) {
   const auto stays = [&](std::size_t k) {
-    return (carry[k] != 0 || old.bonded[k] > 0.0) &&
-           state.alive[b.vertex_block[old.edge[k]]] != 0 &&
+    return (carry[k] != 0 || old.bonded(k)) && state.alive[b.vertex_block[old.edge[k]]] != 0 &&
            state.alive[b.vertex_block[old.facing[k]]] != 0;
   };
   std::vector<Listed> all;
@@ -72,7 +71,6 @@ void fill_constants_of_edges(FaceSet& c, const BlockSet& b, std::size_t k) {
 void fill_constants_of_law(FaceSet& c, const BlockSet& b, const LawTable& laws, std::size_t k) {
   const FaceSides sides = sides_of(b, c.edge[k], c.facing[k]);
   const Law& law = laws.rows[c.law[k]];
-  c.at_ends[k] = law.kn > 0.0 ? 0.0 : 1.0;
   c.stiffness[k] = laws.normal_stiffness(law, sides);
   c.shear_stiffness[k] = laws.shear_stiffness(law, sides);
 }
@@ -108,6 +106,7 @@ void move_totals(FaceSet& next, FaceSet& old) {
   next.removed_fracture = old.removed_fracture;
   next.removed_transfer = old.removed_transfer;
   next.broken = old.broken;
+  next.of_laws = old.of_laws;
   next.gluing = old.gluing;
   next.bond_strength = old.bond_strength;
   next.locked_start = std::move(old.locked_start);
@@ -118,15 +117,17 @@ void move_totals(FaceSet& next, FaceSet& old) {
 void copy_face(FaceSet& next, std::size_t k, const FaceSet& faces, Id old) {
   next.copy_row(k, faces, old);
   next.law[k] = faces.law[old];
+  next.flags[k] = faces.flags[old];
 }
 /// Row k becomes a face that was not in the old list.
 void begin_face(FaceSet& next, std::size_t k, const BlockSet& b, const LawTable& laws) {
   const Id e = next.edge[k], f = next.facing[k];
   next.clear_row(k);
+  next.flags[k] = 0;
   next.law[k] = laws.resolve_met(b.edge_joint[e], b.edge_joint[f], b.material[b.vertex_block[e]],
                                  b.material[b.vertex_block[f]]);
   set_residual_strength(next, laws, k);
-  next.carries_tension[k] = 0.0;  // contacts that form later have no tensile strength
+  next.set(FaceFlag::tension, k, false);  // contacts that form later have no tensile strength
   fill_constants_of_edges(next, b, k);
 }
 
@@ -141,6 +142,9 @@ void retire(FaceSet& next, const FaceSet& old, std::size_t k) {
 /// Fills what follows from the edges of the faces but for the constants of each of them.
 void complete_list(FaceSet& c, const BlockSet& b, const LawTable& laws) {
   c.slip_laws = laws.any_changes;
+  c.of_laws.resize(laws.rows.size());
+  for (std::size_t r = 0; r < laws.rows.size(); ++r)
+    c.of_laws[r].at_ends = !(laws.rows[r].kn > 0.0);
   const std::size_t n = c.size();
   c.edge_end.resize(n);
   c.facing_end.resize(n);
@@ -151,7 +155,7 @@ void complete_list(FaceSet& c, const BlockSet& b, const LawTable& laws) {
   list_by_edge(c, b.vertex_count());
   c.chunk_fails.assign(c.chunks(), 0);
   for (std::size_t k = 0; k < n; ++k) {
-    if (c.failure[k] != 0.0) c.chunk_fails[k / FaceSet::chunk] = 1;
+    if (c.is(FaceFlag::fails, k)) c.chunk_fails[k / FaceSet::chunk] = 1;
   }
 }
 
@@ -184,6 +188,7 @@ std::vector<Id> find_faces(FaceSet& faces, const BlockSet& b, const State& state
   FaceSet next;
   next.set_rows(n);
   next.law.resize(n);
+  next.flags.resize(n);
   next.edge.resize(n);
   next.facing.resize(n);
   for (std::size_t k = 0; k < n; ++k) {

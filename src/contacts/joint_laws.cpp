@@ -91,7 +91,7 @@ Sliding sliding_under(const FaceSet& c, const FaceFields& m, FaceEnds moved, Fac
                       std::size_t k) {
   Sliding both;
   const double spring = m.spring, cohesion = 0.5 * c.cohesion[k] * m.cohesive;
-  if (!(spring > 0.0) || c.bonded[k] > 0.0) return both;
+  if (!(spring > 0.0) || c.bonded(k)) return both;
   const auto add = [&](double slip, double more, double pressed) {
     const double limit = coulomb_limit(cohesion, c.friction[k], pressed) / spring;
     const double trial = slip + more, cut = std::max(std::abs(trial) - limit, 0.0);
@@ -217,15 +217,15 @@ void update_joint_law(FaceSet& c, const BlockSet& b, const Pose& pose, const Law
                       FaceAtN& at_n, std::size_t k) {
   const Law& law = laws.rows[c.law[k]];
   const FaceFields& m = at_n.state;
-  if (m.energy > 0.0 || c.carries_tension[k] > 0.0) {
+  if (m.energy > 0.0 || c.carries_tension(k)) {
     if (law.type == LawType::barton_bandis) complete(c, b, pose, at_n, k);
     const double cut = std::abs(m.trial_a - m.slip_a) + std::abs(m.trial_b - m.slip_b);
-    take_slip(c, laws, m, k, c.bonded[k] > 0.0 ? 0.0 : 0.5 * cut);
+    take_slip(c, laws, m, k, c.bonded(k) ? 0.0 : 0.5 * cut);
     put_in_force(c, laws, m, k);
     if (dilates(law) && m.energy > 0.0) lift(c, b, pose, laws, at_n, k);
     return;
   }
-  const bool may_dilate = dilates(law) && c.opened[k] > 0.0 && m.gate > 0.0;
+  const bool may_dilate = dilates(law) && c.is(FaceFlag::opened, k) && m.gate > 0.0;
   const bool may_part = law.type == LawType::slip_weakening && c.slip_so_far[k] < law.slip_distance;
   if (!may_dilate && !may_part) return;
   complete(c, b, pose, at_n, k);

@@ -23,7 +23,7 @@ auto in_force(const FaceSet& c, std::size_t k) {
 /// Whether the law of face k may change its strength or its opening at all.
 bool may_change(const FaceSet& c, const FaceTiles& t, const Law& law, std::size_t k) {
   if (!law.changes || t.place[k][0] == no_id) return false;
-  if (t.remembered_before(lane_bits::stored, k) || c.carries_tension[k] > 0.0) return true;
+  if (t.remembered_before(lane_bits::stored, k) || c.carries_tension(k)) return true;
   const bool weakens = law.type == LawType::slip_weakening && c.slip_so_far[k] < law.slip_distance;
   return weakens || (dilates(law) && t.remembered_before(lane_bits::on, k));
 }
@@ -88,7 +88,7 @@ void glue_pressed(FaceSet& c, FaceTiles& t, const BlockSet& b, const std::vector
     for (std::size_t lane = 0; pressed != 0 && lane < lanes; ++lane) {
       if (!lane_bits::test(pressed, 0, lane)) continue;
       const Id k = t.face[q * lanes + lane];
-      if (c.glued[k] > 0.0) continue;
+      if (c.glued(k)) continue;
       if (glue_if_whole(c, face_at(c, b, x, y, k).closure, k)) glued.push_back(k);
     }
   }

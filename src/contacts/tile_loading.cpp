@@ -34,9 +34,20 @@ EdgeConstants<double> edge_constants(const FaceSet& c, const BlockSet& b, const 
           p.turn_q2.y};
 }
 StrengthConstants<double> strength_constants(const FaceSet& c, std::size_t k) {
-  return {c.at_ends[k] * c.leans[k], c.friction[k],        c.cohesion[k], c.locked_closure_a[k],
-          c.locked_closure_b[k],     c.carries_tension[k], c.bonded[k],   c.zeta[k],
-          c.shear_zeta[k],           c.rebound[k],         c.tension[k],  c.glued[k]};
+  const auto one = [](bool is) { return is ? 1.0 : 0.0; };
+  const FacesOfLaw& law = c.of_law(k);
+  return {one(law.at_ends && c.leans(k)),
+          c.friction[k],
+          c.cohesion[k],
+          c.locked_closure_a[k],
+          c.locked_closure_b[k],
+          one(c.carries_tension(k)),
+          one(c.bonded(k)),
+          law.zeta,
+          law.shear_zeta,
+          law.rebound,
+          c.tension[k],
+          one(c.glued(k))};
 }
 /// Of a lane without a face: no length and no stiffness; `passing` is divided by.
 EdgeConstants<double> no_constants() {
@@ -172,8 +183,8 @@ void load_copy(FaceTiles& t, const FaceSet& c, const FaceState& f, const Pose& p
 void load_sums(FaceTiles& t, const FaceSet& c, std::size_t place, std::size_t k) {
   put(t.sums, place, FaceSumColumns<double>{c.friction_work[k], c.transfer[k], c.damping_work[k]});
   const std::size_t q = place / lanes;
-  set_bit(t.ever[q], lane_bits::opens, place % lanes, c.opened[k] > 0.0);
-  set_bit(t.ever[q], lane_bits::slides, place % lanes, c.slipped[k] > 0.0);
+  set_bit(t.ever[q], lane_bits::opens, place % lanes, c.is(FaceFlag::opened, k));
+  set_bit(t.ever[q], lane_bits::slides, place % lanes, c.is(FaceFlag::slipped, k));
 }
 
 void load_correction(FaceTiles& t, const FaceSet& c, const FaceFields& before, std::size_t k) {
@@ -201,7 +212,7 @@ void load_chunk_constants(FaceTiles& t, const FaceSet& c, const BlockSet& b, std
       put(strengths, lane, StrengthConstants<double>{});
       continue;
     }
-    const FacePair pair = face_pair(c, b.exterior_cosine.data(), b.exterior_sine.data(), k);
+    const FacePair pair = face_pair(c, b, k);
     put(edges, lane, edge_constants(c, b, pair, k));
     put(strengths, lane, strength_constants(c, k));
   }

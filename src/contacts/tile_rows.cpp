@@ -66,7 +66,7 @@ FaceRow face_row(const FaceSet& c, const FaceTiles& t, const BlockSet& b, const 
   if (place == no_id) return row;
   row.opened = t.has_ever(lane_bits::opens, k);
   row.slipped = t.has_ever(lane_bits::slides, k);
-  const FacePair pair = face_pair(c, b.exterior_cosine.data(), b.exterior_sine.data(), k);
+  const FacePair pair = face_pair(c, b, k);
   const FacePoints at = face_points(c, pose.x, pose.y, k);
   const EdgeGeometry stands = geometry_of_edges(at, pair);
   const Face face = face_between(stands, pair);
@@ -89,8 +89,8 @@ void recall_work(FaceSet& c, const FaceTiles& t, std::size_t k) {
   c.friction_work[k] = sums.friction_work;
   c.transfer[k] = sums.transfer;
   c.damping_work[k] = sums.damping_work;
-  c.opened[k] = t.has_ever(lane_bits::opens, k) ? 1.0 : 0.0;
-  c.slipped[k] = t.has_ever(lane_bits::slides, k) ? 1.0 : 0.0;
+  c.set(FaceFlag::opened, k, t.has_ever(lane_bits::opens, k));
+  c.set(FaceFlag::slipped, k, t.has_ever(lane_bits::slides, k));
 }
 
 void recall_work(FaceSet& c, const FaceTiles& t) {
@@ -103,7 +103,7 @@ void recall_work(FaceSet& c, const FaceTiles& t) {
 bool stays_open(const FaceTiles& t, const FaceSet& c, const BlockSet& b, const Pose& pose,
                 std::size_t k) {
   FaceInputs in{};
-  in.pair = face_pair(c, b.exterior_cosine.data(), b.exterior_sine.data(), k);
+  in.pair = face_pair(c, b, k);
   in.at = face_points(c, pose.x, pose.y, k);
   in.noise = c.noise;
   const std::size_t place = t.place[k][0];

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <span>
+#include <tuple>
 
 #include "base/parallel.hpp"
 #include "contacts/activity.hpp"
@@ -155,9 +156,9 @@ namespace {
 
 /// Properties that a decision may change and on which the forces of a face depend.
 auto properties(const FaceSet& c, Id k) {
-  return std::array{c.acts[k],     c.leans[k],    c.locked_closure_a[k],
-                    c.bonded[k],   c.glued[k],    c.locked_closure_b[k],
-                    c.friction[k], c.cohesion[k], c.carries_tension[k],
+  return std::tuple{c.acts(k),     c.leans(k),    c.locked_closure_a[k],
+                    c.bonded(k),   c.glued(k),    c.locked_closure_b[k],
+                    c.friction[k], c.cohesion[k], c.carries_tension(k),
                     c.tension[k]};
 }
 
@@ -178,8 +179,7 @@ std::vector<Id> FacesInStep::decide(const std::vector<Id>& faces, const StateAtN
     if (known == nullptr) recall_work(c_, t, k);
     const FaceFields before = known == nullptr ? remembered(t, k) : *known;
     const auto had = properties(c_, k);
-    if (breaks &&
-        (t.has_found(lane_bits::fails, k) || c_.bonded[k] > 0.0 || c_.carries_tension[k] > 0.0)) {
+    if (breaks && (t.has_found(lane_bits::fails, k) || c_.bonded(k) || c_.carries_tension(k))) {
       decide_face(c_, scene_, step_, before, k);
     } else {
       decide_activity(c_, scene_.blocks, scene_.pose, {before.energy > 0.0, before.gate > 0.0}, k);

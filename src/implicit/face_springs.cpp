@@ -32,7 +32,7 @@ void set_limits(FaceSprings& s, const TrialFaces& of, std::size_t k) {
   const FaceSet& c = of.faces;
   const double cohesion = 0.5 * c.cohesion[k] * s.cohesive[k];
   const auto limit_of = [&](double normal) {
-    return c.bonded[k] > 0.0 ? unlimited_shear : coulomb_limit(cohesion, c.friction[k], normal);
+    return c.bonded(k) ? unlimited_shear : coulomb_limit(cohesion, c.friction[k], normal);
   };
   s.limits[k] = {limit_of(s.normal[k].a), limit_of(s.normal[k].b)};
   limit_shear(of.tiled.tiles, s.limits[k], k);
@@ -40,12 +40,12 @@ void set_limits(FaceSprings& s, const TrialFaces& of, std::size_t k) {
 
 /// Whether face k carries force, or would carry it at any displacement, at the last evaluation.
 bool touches(const TrialFaces& of, std::size_t k) {
-  return of.tiled.tiles.remembers(lane_bits::stored, k) || of.faces.bonded[k] > 0.0;
+  return of.tiled.tiles.remembers(lane_bits::stored, k) || of.faces.bonded(k);
 }
 
 /// The state of face k, which touches.
 std::uint8_t state_of(const FaceSet& c, const FaceFields& m, std::size_t k) {
-  const bool carries_tension = c.carries_tension[k] > 0.0;
+  const bool carries_tension = c.carries_tension(k);
   return static_cast<std::uint8_t>((carries_tension || m.closure_a > 0.0 ? closed_a : 0) |
                                    (carries_tension || m.closure_b > 0.0 ? closed_b : 0) |
                                    (is_cut(m.trial_a, m.slip_a) ? slides_a : 0) |
@@ -76,7 +76,7 @@ double taken_from_blocks(const FaceRow& r, const Pose& pose) {
 void note(FaceSprings& s, const TrialFaces& of, const std::vector<Id>& faces) {
   for (const Id k : faces) {
     recall_work(of.faces, of.tiled.tiles, k);
-    s.undecided.try_emplace(k, properties_of(of.faces, k));
+    s.undecided.try_emplace(k, record_of(of.faces, k));
   }
 }
 
@@ -86,10 +86,10 @@ void restore_activity(const FaceSprings& s, const TrialFaces& of, const BlockSet
   FaceSet& c = of.faces;
   for (const auto& [k, was] : s.undecided) {
     recall_work(c, of.tiled.tiles, k);
-    c.acts[k] = was.acts;
-    c.leans[k] = was.leans;
-    c.locked_closure_a[k] = was.locked_closure_a;
-    c.locked_closure_b[k] = was.locked_closure_b;
+    for (const FaceFlag flag : {FaceFlag::acts, FaceFlag::leans})
+      c.set(flag, k, (was.flags & static_cast<std::uint16_t>(flag)) != 0);
+    c.locked_closure_a[k] = was.properties.locked_closure_a;
+    c.locked_closure_b[k] = was.properties.locked_closure_b;
     load_decisions(of.tiled.tiles, c, b, k);
   }
 }
@@ -194,12 +194,12 @@ void account_springs(const FaceSprings& s, const TrialFaces& of, const FaceScene
     // separated from this.
     const bool broke = std::binary_search(broken.begin(), broken.end(), static_cast<Id>(k));
     const double fracture = broke ? std::clamp(rest, 0.0, s.stored[k]) : 0.0;
-    const bool failed = c.failure[k] != 0.0 && !broke;  // since the last step
+    const bool failed = c.is(FaceFlag::fails, k) && !broke;  // since the last step
     (failed ? c.fracture_work : c.friction_work)[k] += friction;
     c.fracture_work[k] += fracture;
     c.damping_work[k] += rest - fracture;
-    if (t.has_found(lane_bits::opens, k)) c.opened[k] = 1.0;
-    if (t.has_found(lane_bits::slides, k)) c.slipped[k] = 1.0;
+    if (t.has_found(lane_bits::opens, k)) c.set(FaceFlag::opened, k);
+    if (t.has_found(lane_bits::slides, k)) c.set(FaceFlag::slipped, k);
   };
   parallel_for(c.size(), account, cost_of_a_face);
   if (c.gluing) glue_pressed(c, t, scene.blocks, scene.pose.x, scene.pose.y);
@@ -210,7 +210,7 @@ void account_springs(const FaceSprings& s, const TrialFaces& of, const FaceScene
 void go_back(FaceSprings& s, const TrialFaces& of, const BlockSet& b) {
   FaceTiles& t = of.tiled.tiles;
   for (const auto& [k, was] : s.undecided) {
-    set_properties(of.faces, k, was);
+    set_record(of.faces, k, was);
     load_decisions(t, of.faces, b, k);
   }
   s.undecided.clear();

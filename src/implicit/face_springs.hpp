@@ -31,7 +31,7 @@ struct FaceSprings {
   std::vector<std::uint8_t> state;  ///< at the last evaluation: 1 and 2: end a, b is closed; 4 and
                                     ///< 8: end a, b slides
   /// Faces of which something was decided in the step, as they were before.
-  std::map<Id, FaceProperties<double>> undecided;
+  std::map<Id, FaceRecord> undecided;
   bool first = false;  ///< nothing has moved yet: ends that almost touch count as closed
 };
 

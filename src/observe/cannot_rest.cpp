@@ -52,7 +52,7 @@ Supports supports_of(const Simulation& sim) {
     const FaceRow row = face_row(sim, k);
     if (!meets(row)) continue;
     const Id one = block_of_edge(b, f, k), other = block_of_facing(b, f, k);
-    const bool glued = f.cohesion[k] > 0.0 || f.glued[k] > 0.0 || f.carries_tension[k] > 0.0;
+    const bool glued = f.cohesion[k] > 0.0 || f.glued(k) || f.carries_tension(k);
     if (glued) s.held[one] = s.held[other] = 1;
     const Vec2 t = unit(Vec2{sim.motion.pose.x[f.edge_end[k]] - sim.motion.pose.x[f.edge[k]],
                              sim.motion.pose.y[f.edge_end[k]] - sim.motion.pose.y[f.edge[k]]});

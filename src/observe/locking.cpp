@@ -32,7 +32,7 @@ StiffnessRatio stiffness_ratio(const BlockSet& b, const FaceSet& f, std::size_t 
 /// How much stiffer in bending than by the integral of its pressure: with a penalty that is taken
 /// at the ends (theory, section 4.2).
 double bending_rule(const FaceSet& f, std::size_t k) {
-  return f.at_ends[k] > 0.0 && f.leans[k] > 0.0 ? 3.0 : 1.0;
+  return f.of_law(k).at_ends && f.leans(k) ? 3.0 : 1.0;
 }
 
 /// Corners of block i where its outline turns.
@@ -60,8 +60,7 @@ bool counts(const Simulation& sim, const FaceRow& row, Index opening) {
 /// however it lies: what slips there closes the opening, and not the rock.
 bool holds_beside(const FaceSet& f, double thickness, double stress, std::size_t k) {
   const double t = f.friction[k];
-  return f.glued[k] > 0.0 ||
-         f.cohesion[k] / thickness >= 0.5 * stress * (std::sqrt(1.0 + t * t) - t);
+  return f.glued(k) || f.cohesion[k] / thickness >= 0.5 * stress * (std::sqrt(1.0 + t * t) - t);
 }
 
 /// The largest stress along the wall of a circular opening, three times the larger principal stress
@@ -144,7 +143,7 @@ std::vector<Row> rows_of(const Simulation& sim) {
     const Id pair[2] = {block_of_edge(b, f, k), block_of_facing(b, f, k)};
     for (int side = 0; side < 2; ++side) {
       Row& row = rows[pair[side]];
-      if (!(f.carries_tension[k] > 0.0) || row.joints >= 2) {
+      if (!f.carries_tension(k) || row.joints >= 2) {
         row.alone = false;
         continue;
       }

@@ -56,7 +56,7 @@ void add_stresses(ContactRecord& r, const Simulation& sim, const FaceRow& row) {
   const FaceSet& f = row.of;
   const std::size_t k = row.k;
   const FaceFields& m = row.state;
-  const bool carries_tension = f.carries_tension[k] > 0.0;
+  const bool carries_tension = f.carries_tension(k);
   const double a = carries_tension ? m.closure_a : std::max(m.closure_a, 0.0);
   const double b = carries_tension ? m.closure_b : std::max(m.closure_b, 0.0);
   const double apart = std::abs(m.closure_a - m.closure_b);
@@ -105,15 +105,15 @@ ContactRecord face_record(const Simulation& sim, const FaceRow& row) {
   r.ever_slipped = row.slipped;
   r.ever_opened = row.opened;
   if (!is_closed(row)) return r;
-  r.state = f.bonded[k] > 0.0 ? ContactState::bonded
-            : slides(row)     ? ContactState::slide
-                              : ContactState::stick;
+  r.state = f.bonded(k)   ? ContactState::bonded
+            : slides(row) ? ContactState::slide
+                          : ContactState::stick;
   r.force = force_on_facing(row);
   r.normal_force = normal_force(row);
   r.shear_force = shear_force(row);
   add_stresses(r, sim, row);
   const double strength = shear_strength(row);
-  r.mobilised = f.glued[k] > 0.0 || r.shear_force == 0.0 ? 0.0 : std::abs(r.shear_force) / strength;
+  r.mobilised = f.glued(k) || r.shear_force == 0.0 ? 0.0 : std::abs(r.shear_force) / strength;
   return r;
 }
 

@@ -33,8 +33,9 @@ void list_faces(Archive& a, FaceSet& c, FaceStates& states) {
   a("faces.edge", c.edge);
   a("faces.facing", c.facing);
   a("faces.law", c.law);
+  a("faces.flags", c.flags);
   if constexpr (Archive::loads) {
-    if (c.facing.size() != c.size() || c.law.size() != c.size()) {
+    if (c.facing.size() != c.size() || c.law.size() != c.size() || c.flags.size() != c.size()) {
       return a.refuse("faces do not fit together");
     }
     c.clear_rows(c.size());
@@ -106,6 +107,7 @@ void examine_faces(Examiner& j, const FaceSet& c, const FaceStates& states, cons
   j.rows("faces", c.rows(), n);
   j.sized("faces.facing", c.facing, n);
   j.sized("faces.law", c.law, n);
+  j.sized("faces.flags", c.flags, n);
   for (const auto* values : {&c.built_x, &c.built_y}) j.sized("faces.built", *values, nv);
   if (!c.locked_start.empty()) j.sized("faces.locked", c.locked_start, nv);
   j.sized("faces.locked", c.locked_end, c.locked_start.size());

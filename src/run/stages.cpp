@@ -84,7 +84,7 @@ StageRecord stage_record(const Simulation& sim, const EnergyBalance& energy, dou
     if (!closed) continue;
     ++r.closed;
     r.sliding += slides(face_row(sim, k));
-    r.bonded += f.bonded[k] > 0.0;
+    r.bonded += f.bonded(k);
   }
   return r;
 }

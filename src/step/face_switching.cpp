@@ -234,7 +234,7 @@ class Correction {
   void add_if_it_switches(SwitchingFace& f) {
     recall_work(c_, t_, f.face);
     const FaceFields before = remembered(t_, f.face);
-    if (before.energy > 0.0 && c_.carries_tension[f.face] == 0.0 &&
+    if (before.energy > 0.0 && !c_.carries_tension(f.face) &&
         (before.switched > 0.0 || t_.remembers(lane_bits::switched, f.face)))
       return complete(f, before);
     f.face = no_id;

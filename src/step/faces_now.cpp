@@ -63,7 +63,7 @@ bool has_opened(const Simulation& sim, std::size_t k) {
 bool is_closed_now(const Simulation& sim, std::size_t k) {
   const FaceSet& c = sim.motion.contacts;
   const FaceTiles& t = sim.motion.tiled.tiles;
-  return t.remembers(lane_bits::stored, k) || (c.bonded[k] > 0.0 && t.remembers(lane_bits::on, k));
+  return t.remembers(lane_bits::stored, k) || (c.bonded(k) && t.remembers(lane_bits::on, k));
 }
 
 namespace {
@@ -126,7 +126,7 @@ FaceMeasures measure_faces(const Simulation& sim) {
     const SpringsOfFace springs{
         old.spring, {old.slip_a, old.slip_b}, t.remembers(lane_bits::stored, k)};
     const bool closed = is_closed_now(sim, k);
-    if (!closed && c.carries_tension[k] == 0.0 && !springs.have_slip()) return;
+    if (!closed && !c.carries_tension(k) && !springs.have_slip()) return;
     const Face face = face_now(sim, k);
     if (closed) all.normal[k] = normal_of(sim, face, k);
     all.energy[k] = face_energy(c, b, sim.motion.pose, springs, face, k);

@@ -60,8 +60,8 @@ std::string of_face(const Simulation& sim, std::size_t k) {
   for (const double at : {m.xi_a, m.xi_b, m.eta_a, m.eta_b}) {
     if (!in_range(at, 0.0, 1.0)) return "an end lies beyond its edge";
   }
-  const bool free = is_explicit(sim) && c.bonded[k] == 0.0 && !c.dashpots &&
-                    !sim.motion.laws.any_changes && !c.gluing;
+  const bool free =
+      is_explicit(sim) && !c.bonded(k) && !c.dashpots && !sim.motion.laws.any_changes && !c.gluing;
   if (free &&
       !(within_limit(row, m.shear_a, m.normal_a) && within_limit(row, m.shear_b, m.normal_b))) {
     return "carries more shear than its limit";

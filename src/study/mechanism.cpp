@@ -274,7 +274,7 @@ void find_lost_cohesion(Mechanism& m, const Simulation& stable) {
   for (std::size_t k = 0; k < f.size(); ++k) {
     const auto [i, j] = blocks_of_face(stable.scene->blocks, f, k);
     if (!brittle.contains({i, j, f.law[k]})) continue;
-    const bool lost = f.bonded[k] == 0.0;
+    const bool lost = !f.bonded(k);
     const FaceRow row = face_row(stable, k);
     if (lost && !is_closed(row) && !row.opened) continue;  // was never bonded
     m.brittle_length += row.state.length;

@@ -65,7 +65,7 @@ void collect_joints(SeenJoints& joints, const Simulation& before, const Simulati
     const auto [i, j] = blocks_of_face(b, f, k);
     const FaceRow row = face_row(before, k);
     const FaceFields& m = row.state;
-    const bool along = f.acts[k] > 0.0 && m.cohesive > 0.0 && closure_of(row) > -least;
+    const bool along = f.acts(k) && m.cohesive > 0.0 && closure_of(row) > -least;
     if (!along && !(normal_force(row) > counts * largest[{i, j}])) continue;
     const double length = std::min(b.edge_length[f.edge[k]], b.edge_length[f.facing[k]]);
     const double turning = std::abs(rotation[i] - rotation[j]) * length;

@@ -148,7 +148,7 @@ class ActingOracle {
       if (s.closure() > rounding_ && decided != Decision::unknown) {
         ++faults.decided;
         faults.inactive += decided == Decision::inactive ? 1 : 0;
-        faults.apart += (c.acts[k] > 0.0) == (decided == Decision::acts) ? 0 : 1;
+        faults.apart += c.acts(k) == (decided == Decision::acts) ? 0 : 1;
       }
       const bool presses = states.now[k].energy > 0.0;
       if (presses && states.before[k].energy == 0.0) look_beside(s, c, b, pose, k, faults);
@@ -170,10 +170,9 @@ class ActingOracle {
     const double closure = s.closure();
     // A closure beyond twice the overlap is the far side of a corner; a face in tension has no
     // closure.
-    const double beyond =
-        c.carries_tension[k] > 0.0 ? s.length : s.length - 0.5 * std::max(closure, 0.0);
+    const double beyond = c.carries_tension(k) ? s.length : s.length - 0.5 * std::max(closure, 0.0);
     const double doubt =
-        rounding_ + 0.3 * std::max(closure, 0.0) * (c.carries_tension[k] > 0.0 ? 0.0 : 1.0);
+        rounding_ + 0.3 * std::max(closure, 0.0) * (c.carries_tension(k) ? 0.0 : 1.0);
     if (!s.opposed || beyond < -doubt) return Decision::apart;
     if (s.angle_left < 1e-6 || beyond < doubt) return Decision::unknown;
     if (closure < -rounding_) return Decision::acts;
@@ -203,7 +202,7 @@ class ActingOracle {
     if (std::abs(deepest) < doubt) return;
     ++faults.leaning;
     faults.crossed += deepest > 0.0 ? 1 : 0;
-    faults.askew += (c.leans[k] > 0.0) == (deepest < 0.0) ? 0 : 1;
+    faults.askew += c.leans(k) == (deepest < 0.0) ? 0 : 1;
   }
 
   double rounding_;  ///< m

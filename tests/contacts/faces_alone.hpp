@@ -46,12 +46,13 @@ struct FacesAlone {
   void next_step() {
     for (std::size_t k = 0; k < faces.size(); ++k) {
       const FaceFields& m = states.now[k];
-      (faces.failure[k] > 0.0 ? faces.fracture_work : faces.friction_work)[k] += m.friction_work;
+      (faces.is(FaceFlag::fails, k) ? faces.fracture_work : faces.friction_work)[k] +=
+          m.friction_work;
       if (faces.dashpots) faces.damping_work[k] += m.damping_work + m.damping_due;
       faces.transfer[k] += m.transfer;
       if (is_cut(FaceEnds{m.trial_a, m.trial_b}, FaceEnds{m.slip_a, m.slip_b}))
-        faces.slipped[k] = 1.0;
-      if (states.before[k].energy > 0.0 && m.energy == 0.0) faces.opened[k] = 1.0;
+        faces.set(FaceFlag::slipped, k);
+      if (states.before[k].energy > 0.0 && m.energy == 0.0) faces.set(FaceFlag::opened, k);
     }
     count_failures(faces);
     states.before = states.now;

@@ -40,7 +40,7 @@ bool bar_leans(int bricks, bool wedge) {
   for (std::size_t k = 0; k < c.size(); ++k) {
     const Id i = heap.blocks.vertex_block[c.edge[k]], j = heap.blocks.vertex_block[c.facing[k]];
     if (std::min(i, j) == 0 && std::max(i, j) == 1 && heap.alone.states.now[k].energy > 0.0)
-      return c.leans[k] > 0.0;
+      return c.leans(k);
   }
   ADD_FAILURE() << "the bar does not touch the floor";
   return false;

@@ -43,6 +43,8 @@ struct MovedBlocks : DrawnBlocks {
     pose = {blocks.vertex_x, blocks.vertex_y, blocks.vertex_x,
             blocks.vertex_y, blocks.vertex_x, blocks.vertex_y};
     tiled.sleep_part = 0.0;
+    near = {};
+    faces = {};
     find_faces(faces, blocks, state, pose, laws, {reach}, near, {});
     set_face_dashpots(faces, laws, 0.0);
     load(FaceStates(faces.size()));

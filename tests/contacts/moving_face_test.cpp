@@ -44,7 +44,7 @@ TEST(MovingFace, IsAsStiffAsItsJoint) {
   const std::size_t q = penalty.main_face();
   penalty.put_still(1, {{0.0, -depth}, tilt});
   EXPECT_NEAR(moment(penalty, q), 4e9 * tilt / 4.0, 1e-3 * 4e9 * tilt);
-  penalty.faces.leans[q] = 0.0;
+  penalty.faces.set(FaceFlag::leans, q, false);
   penalty.evaluate();
   EXPECT_NEAR(moment(penalty, q), 4e9 * tilt / 12.0, 1e-3 * 4e9 * tilt);
 }
@@ -64,7 +64,7 @@ TEST(MovingFace, SlidesAtCoulombsLimitAndUnloadsElastically) {
     EXPECT_NEAR(shear(3.5e-4), limit - 1e9 * 5e-5, 1e-3 * limit);
     EXPECT_NEAR(shear(3.0e-4), limit - 1e9 * 1e-4, 1e-3 * limit);
     const std::size_t k = m.main_face();
-    EXPECT_EQ(m.faces.slipped[k], 1.0);
+    EXPECT_TRUE(m.faces.is(FaceFlag::slipped, k));
     m.go(1, {{3.0e-4, -depth}});
     EXPECT_NEAR(m.friction(), limit * (4e-4 - limit / 1e9), 0.03 * limit * 4e-4);
     EXPECT_NEAR(m.transfer(), 0.0, 1e-6 * m.friction());

@@ -117,7 +117,7 @@ TEST(JudgeFace, FarSidesDoNotAct) {
   for (std::size_t k = 0; k < m.faces.size(); ++k) {
     if (m.now(k).closure_a < 0.01) continue;
     ++far;
-    EXPECT_EQ(m.faces.acts[k], 0.0);
+    EXPECT_FALSE(m.faces.acts(k));
     EXPECT_EQ(m.now(k).energy, 0.0);
   }
   EXPECT_GT(far, 0);
@@ -144,7 +144,7 @@ TEST(JudgeFace, NothingLeansAcrossAThirdBlock) {
     if (!(m.now(k).energy > 0.0)) continue;
     const auto [i, j] = blocks_of_face(m.blocks, m.faces, k);
     const bool neighbours = j - i == 1 || j - i == 4;
-    EXPECT_EQ(m.faces.leans[k], neighbours ? 1.0 : 0.0) << i << ' ' << j;
+    EXPECT_EQ(m.faces.leans(k), neighbours) << i << ' ' << j;
     (neighbours ? beside : across) += 1;
   }
   EXPECT_EQ(beside, 5);

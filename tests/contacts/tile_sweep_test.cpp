@@ -55,7 +55,7 @@ struct Drift {
     for (std::size_t k = 0; k < c.size(); ++k) {
       c.friction[k] = 0.3;
       c.cohesion[k] = 10.0 * u(rng);
-      if (u(rng) < bonded_part) c.bonded[k] = c.glued[k] = c.carries_tension[k] = 1.0;
+      if (u(rng) < bonded_part) c.set(FaceFlag::glued_by_stage, k);
       if (u(rng) < locked_part) c.locked_closure_a[k] = c.locked_closure_b[k] = 1e-4 * u(rng);
     }
     set_face_dashpots(c, heap.laws, damping);
@@ -167,6 +167,7 @@ struct Drift {
       for (std::size_t k = 0; k < c.size(); ++k)
         expect_same((own.*column.values)[k], (c.*column.values)[k], column.name, k);
     }
+    EXPECT_EQ(own.flags, c.flags);
     for (const Id k : old) (k == no_id ? listed : kept) += 1;
   }
 
@@ -177,10 +178,13 @@ struct Drift {
     recall_work(own, t);
     const auto of_history = [](const auto& column) {
       const std::string_view name = column.name;
-      return name == "opened" || name == "slipped" || name == "transfer" || name.ends_with("_work");
+      return name == "transfer" || name.ends_with("_work");
     };
     for (std::size_t k = 0; k < c.size(); ++k) {
-      bool same = true;
+      constexpr auto history = static_cast<std::uint16_t>(FaceFlag::opened) |
+                               static_cast<std::uint16_t>(FaceFlag::slipped);
+      bool same = ((own.flags[k] ^ c.flags[k]) & ~history) == 0;
+      own.flags[k] = static_cast<std::uint16_t>((own.flags[k] & history) | (c.flags[k] & ~history));
       for (const auto& column : face_properties) {
         if (of_history(column)) continue;
         double& value = (own.*column.values)[k];
@@ -241,7 +245,7 @@ struct Drift {
   void compare_found(LaneBits found, std::size_t lane, std::size_t k) {
     const FaceSet& c = heap.alone.faces;
     const FaceFields &m = heap.alone.states.now[k], &old = heap.alone.states.before[k];
-    const bool touches = m.energy > 0.0 || (c.bonded[k] > 0.0 && m.gate > 0.0);
+    const bool touches = m.energy > 0.0 || (c.bonded(k) && m.gate > 0.0);
     const bool worked = old.energy > 0.0 || old.spring > 0.0;
     const bool opens = old.energy > 0.0 && m.energy == 0.0,
                slides = m.slip_a != m.trial_a || m.slip_b != m.trial_b;

@@ -124,6 +124,7 @@ TEST(FaceSprings, AStepThatIsGivenUpLeavesNothing) {
     recall_work(m.faces, m.tiled.tiles);
     for (const auto& column : face_properties)
       EXPECT_EQ((m.faces.*column.values).values(), (was.*column.values).values()) << column.name;
+    EXPECT_EQ(m.faces.flags, was.flags);
     const FaceStates left = m.states();
     for (const FaceField& field : face_fields) {
       for (std::size_t k = 0; k < was.size(); ++k) {

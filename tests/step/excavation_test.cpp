@@ -66,7 +66,7 @@ TEST(Excavation, IsThereUntilItIsTakenOut) {
   EXPECT_EQ(sim.scene->blocks.size(), 5u);
   std::size_t glued = 0;
   for (std::size_t k = 0; k < sim.motion.contacts.size(); ++k) {
-    glued += sim.motion.contacts.glued[k] > 0.0;
+    glued += sim.motion.contacts.glued(k);
   }
   EXPECT_EQ(glued, 2u) << "two joints";
   EXPECT_EQ(prepared(column("")).sim.scene->blocks.size(), 3u)

@@ -41,10 +41,11 @@ void expect_faces_follow(const Simulation& sim) {
     if (tiles.place[k][0] == no_id) continue;
     const FaceRow row = face_row(sim, k);
     const FaceFields before = remembered(tiles, k);
-    const double acts = faces.acts[k], leans = faces.leans[k];
-    if (faces.failure[k] == 0.0) decide_face(faces, face_scene(sim), motion.state.step, before, k);
-    EXPECT_EQ(faces.acts[k], acts) << k;
-    EXPECT_EQ(faces.leans[k], leans) << k;
+    const bool acts = faces.acts(k), leans = faces.leans(k);
+    if (!faces.is(FaceFlag::fails, k))
+      decide_face(faces, face_scene(sim), motion.state.step, before, k);
+    EXPECT_EQ(faces.acts(k), acts) << k;
+    EXPECT_EQ(faces.leans(k), leans) << k;
     const EvaluatedFace face = evaluate_face(faces, face_scene(sim), motion.state.step, before, k);
     const bool listed_since = face.state.gate > 0.0 && row.state.gate == 0.0;
     if (listed_since) continue;
@@ -276,8 +277,8 @@ TEST(TileStep, BondsFailAtRestWhereTheirStrengthIsReduced) {
     for (int n = 0; n < 20; ++n) ASSERT_FALSE(step(sim));
     EXPECT_EQ(sim.motion.contacts.broken, 0u) << method;
     set_strength_factor(sim, 1e3);
-    const std::vector<double> bonded = sim.motion.contacts.bonded.values();
-    EXPECT_EQ(std::count(bonded.begin(), bonded.end(), 1.0), 0) << method;
+    const FaceSet& faces = sim.motion.contacts;
+    for (std::size_t k = 0; k < faces.size(); ++k) EXPECT_FALSE(faces.bonded(k)) << method;
   }
 }
 TEST(TileStep, BlocksAreDividedAnewWhereTheirNeighboursHaveChanged) {
@@ -337,7 +338,7 @@ TEST(TileStep, FacesFollowWhileJointsAreGlued) {
     if (n == 100) glue_joints(sim, true);
     if (n == 5000) {
       const FaceSet& c = sim.motion.contacts;
-      for (std::size_t k = 0; k < c.size(); ++k) glued += c.glued[k] > 0.0 ? 1 : 0;
+      for (std::size_t k = 0; k < c.size(); ++k) glued += c.glued(k) ? 1 : 0;
       glue_joints(sim, false);
     }
   });

@@ -85,6 +85,7 @@ TEST(ImplicitAttempt, LeavesEverythingAsItWas) {
   for (const auto& column : face_properties)
     EXPECT_EQ((sim.motion.contacts.*column.values).values(), (c.*column.values).values())
         << column.name;
+  EXPECT_EQ(sim.motion.contacts.flags, c.flags);
   expect_same(is.now, was.now);
   expect_same(is.before, was.before);
   EXPECT_EQ(sim.accounts.damping_work.joules, damping);

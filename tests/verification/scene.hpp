@@ -99,7 +99,8 @@ inline std::string rectangle(double x0, double y0, double x1, double y1) {
 /// Faces that still have their peak strength.
 inline std::size_t bonded_faces(const Simulation& sim) {
   std::size_t count = 0;
-  for (const double bonded : sim.motion.contacts.bonded.values()) count += bonded > 0.0;
+  const FaceSet& faces = sim.motion.contacts;
+  for (std::size_t k = 0; k < faces.size(); ++k) count += faces.bonded(k);
   return count;
 }
 
