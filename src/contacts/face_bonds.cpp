@@ -7,8 +7,8 @@
 #include "contacts/face_energy.hpp"
 #include "contacts/face_reading.hpp"
 #include "contacts/find_faces.hpp"
-#include "contacts/joint_laws.hpp"
 #include "contacts/joint_strength.hpp"
+#include "contacts/strength.hpp"
 
 namespace edda {
 namespace {
@@ -51,21 +51,7 @@ void fit(FaceSet& c, FaceStates& states, const BlockSet& b, const Face& face, st
   states.before[k].gate = face.gate;
 }
 
-void set_residual_tension(FaceSet& c, const LawTable& laws, std::size_t k) {
-  const Law& law = laws.rows[c.law[k]];
-  c.tension[k] = law.residual_tension * laws.thickness;
-  c.set(FaceFlag::tension, k, law.residual_tension > 0.0);
-}
-
 }  // namespace
-
-void set_residual_strength(FaceSet& c, const LawTable& laws, std::size_t k) {
-  const Law& law = laws.rows[c.law[k]];
-  c.friction[k] = law.residual_friction;
-  c.cohesion[k] = law.residual_cohesion * laws.thickness;
-  set_residual_tension(c, laws, k);
-  c.slip_so_far[k] = first_slip(law);
-}
 
 void bond_faces(FaceSet& c, FaceStates& states, const BlockSet& b, const Pose& pose,
                 const LawTable& laws) {
@@ -96,13 +82,9 @@ void bond_faces(FaceSet& c, FaceStates& states, const BlockSet& b, const Pose& p
         std::min(face.closure.a, face.closure.b) >= -touching_gap * smaller_size(c, b, k);
     c.set(FaceFlag::acts, k);
     c.set(FaceFlag::leans, k);
-    if (weakens) c.slip_so_far[k] = 0.0;
-    c.set_bond(weakens ? BondState::residual : BondState::intact, k);
+    set_bond(c, laws, weakens ? BondState::residual : BondState::intact, 0.0, k);
     c.set(FaceFlag::glued, k, law.glued);
     c.set(FaceFlag::tension, k, flush && (law.glued || law.peak_tension > 0.0));
-    c.friction[k] = law.peak_friction;
-    c.cohesion[k] = law.peak_cohesion * laws.thickness;
-    c.tension[k] = law.peak_tension * laws.thickness;
   }
   if (changes) complete_faces(c, b, laws);
 }
@@ -118,9 +100,11 @@ void break_bond(FaceSet& c, const BlockSet& b, const LawTable& laws, const FaceF
                       std::max(now.closure_a, now.closure_b) > 0.0 &&
                       !failure_now(c, b, now, k).sheared;
   const bool breaks = c.bonded(k) && !cracks;
-  if (cracks) set_residual_tension(c, laws, k);
-  c.set_bond(cracks ? BondState::cracked : BondState::residual, k);
   if (breaks) set_residual_strength(c, laws, k);
+  if (cracks) {
+    set_bond(c, laws, BondState::cracked, c.slip_so_far[k], k);
+    c.set(FaceFlag::tension, k, laws.rows[c.law[k]].residual_tension > 0.0);
+  }
   c.mark_failure(k, breaks);
   // The face releases altogether if its tension exceeds the residual tensile strength, too.
   if (failure_now(c, b, now, k).torn) c.set(FaceFlag::tension, k, false);

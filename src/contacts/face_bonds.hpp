@@ -31,9 +31,6 @@ inline bool lies_flush_as_drawn(FaceEnds drawn, double length) {
   return std::min(drawn.a, drawn.b) > -accuracy * length;
 }
 
-/// Gives face k the residual strength of its law.
-void set_residual_strength(FaceSet& faces, const LawTable& laws, std::size_t k);
-
 /// Whether any face has a bond that may fail.
 inline bool has_bonds(const FaceSet& faces) {
   for (std::size_t k = 0; k < faces.size(); ++k) {

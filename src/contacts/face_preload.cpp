@@ -5,8 +5,8 @@
 
 #include "contacts/evaluate_face.hpp"
 #include "contacts/face_bonds.hpp"
-#include "contacts/joint_laws.hpp"
 #include "contacts/joint_strength.hpp"
+#include "contacts/strength.hpp"
 
 namespace edda {
 namespace {
@@ -118,7 +118,7 @@ std::vector<JointStress> preload_faces(FaceSet& c, FaceStates& states, const Blo
     m.slip_a = -shear.a / m.spring;
     m.slip_b = -shear.b / m.spring;
   }
-  put_strengths_in_force(c, states, laws);
+  put_in_force(c, states, laws);
   for (const RequiredForces& a : required) add_to_joint(joints[c.law[a.face]], c, a);
   states.now = states.before;
   return joints;

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "base/parallel.hpp"
-#include "contacts/face_bonds.hpp"
+#include "contacts/strength.hpp"
 
 namespace edda {
 namespace {

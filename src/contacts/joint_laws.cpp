@@ -1,56 +1,22 @@
 #include "contacts/joint_laws.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <limits>
-#include <numbers>
 
 #include "contacts/evaluate_face.hpp"
 #include "contacts/joint_strength.hpp"
+#include "contacts/strength.hpp"
 
 namespace edda {
 namespace {
 
 constexpr double dilation_gap = 1e-4;  // of the smaller block: at a larger gap dilation stops
-constexpr double steepest = 70.0;      // degrees
-
-double radians(double degrees) {
-  return degrees * std::numbers::pi / 180.0;
-}
-
-/// Strength and dilation of a law in force at the accumulated slip.
-struct InForce {
-  double friction, cohesion, tension;  ///< tangent; Pa
-  double dilation;                     ///< tangent
-};
-
-InForce weakened(const Law& law, double slip) {
-  const double w = std::min(slip / law.slip_distance, 1.0);
-  const auto between = [&](double peak, double residual) { return peak + w * (residual - peak); };
-  return {between(law.peak_friction, law.residual_friction),
-          between(law.peak_cohesion, law.residual_cohesion),
-          between(law.peak_tension, law.residual_tension), (1.0 - w) * law.dilation};
-}
-
-InForce rough(const Law& law, double slip, double length, double sigma, double divided_by) {
-  constexpr double sizes = 500.0, power = 0.33;
-  const double peak = law.jrc > 0.0 ? length / sizes * std::pow(law.jrc / length, power) : 0.0;
-  const double left = roughness_left(slip, peak);
-  const double angle = barton_angle(law, left, sigma);
-  return {std::tan(radians(angle)) / divided_by, 0.0, 0.0,
-          std::tan(radians(0.5 * (angle - law.residual_angle)))};
-}
 
 /// m: the state of face k at n, as everywhere below.
-InForce in_force(const FaceSet& c, const LawTable& laws, const FaceFields& m, std::size_t k) {
-  const Law& law = laws.rows[c.law[k]];
-  if (law.type == LawType::slip_weakening) return weakened(law, c.slip_so_far[k]);
-  if (law.type == LawType::barton_bandis && m.length > 0.0) {
-    const double sigma = std::max(m.normal_a + m.normal_b, 0.0) / (m.length * laws.thickness);
-    return rough(law, c.slip_so_far[k], m.length, sigma, laws.divided_by[c.law[k]]);
-  }
-  return {c.friction[k], 0.0, 0.0, c.slip_so_far[k] < law.slip_distance ? law.dilation : 0.0};
+StrengthInForce strength_at(const FaceSet& c, const LawTable& laws, const FaceFields& m,
+                            std::size_t k) {
+  return strength_of(laws, c.law[k], c.bond(k),
+                     {c.slip_so_far[k], m.length, m.normal_a + m.normal_b});
 }
 
 /// Finds what follows from the corners at n.
@@ -77,7 +43,7 @@ double dilating_part(const FaceSet& c, const Law& law, std::size_t k, double sli
 void take_slip(FaceSet& c, const LawTable& laws, const FaceFields& m, std::size_t k, double slip) {
   if (slip == 0.0) return;
   const double part = dilating_part(c, laws.rows[c.law[k]], k, slip);
-  c.dilation_left[k] += in_force(c, laws, m, k).dilation * part;
+  c.dilation_left[k] += strength_at(c, laws, m, k).dilation * part;
   c.slip_so_far[k] += slip;
 }
 
@@ -125,7 +91,7 @@ void lift(FaceSet& c, const BlockSet& b, const Pose& pose, const LawTable& laws,
   if (!(in_place.friction > 0.0)) return;
   complete(c, b, pose, at_n, k);
   const Law& law = laws.rows[c.law[k]];
-  const double outstanding = c.dilation_left[k], dilation = in_force(c, laws, m, k).dilation;
+  const double outstanding = c.dilation_left[k], dilation = strength_at(c, laws, m, k).dilation;
   const double most = outstanding + dilation * dilating_part(c, law, k, in_place.slip);
   if (!(most > 0.0)) return;
   const auto after = [&](double rise) -> Lift {
@@ -171,47 +137,7 @@ void take_slip_while_open(FaceSet& c, const BlockSet& b, const Pose& pose, const
   open_by(c, k, rise);
 }
 
-void put_in_force(FaceSet& c, const LawTable& laws, const FaceFields& m, std::size_t k) {
-  if (laws.rows[c.law[k]].type == LawType::coulomb) return;
-  const InForce now = in_force(c, laws, m, k);
-  c.friction[k] = now.friction;
-  c.cohesion[k] = now.cohesion * laws.thickness;
-  c.tension[k] = now.tension * laws.thickness;
-}
-
 }  // namespace
-
-double first_slip(const Law& law) {
-  return law.type == LawType::slip_weakening ? std::numeric_limits<double>::infinity() : 0.0;
-}
-
-double roughness_left(double slip, double peak) {
-  // Barton, Bandis and Bakhtar (1985), beyond the peak; linear in log10(u/u_p) between the points.
-  constexpr std::array<std::array<double, 2>, 6> table{
-      {{1.0, 1.0}, {2.0, 0.85}, {4.0, 0.70}, {10.0, 0.50}, {25.0, 0.40}, {100.0, 0.0}}};
-  if (slip <= peak) return 1.0;
-  const double ratio = slip / peak;
-  for (std::size_t q = 1; q < table.size(); ++q) {
-    if (ratio > table[q][0]) continue;
-    const double part = std::log(ratio / table[q - 1][0]) / std::log(table[q][0] / table[q - 1][0]);
-    return table[q - 1][1] + part * (table[q][1] - table[q - 1][1]);
-  }
-  return 0.0;
-}
-
-double barton_angle(const Law& law, double roughness, double sigma) {
-  if (law.jrc == 0.0 || roughness == 0.0 || sigma >= law.jcs) return law.residual_angle;
-  if (sigma <= 0.0) return std::max(law.residual_angle, steepest);
-  const double angle = law.residual_angle + roughness * law.jrc * std::log10(law.jcs / sigma);
-  return std::max(law.residual_angle, std::min(angle, steepest));
-}
-
-void put_strengths_in_force(FaceSet& c, const FaceStates& states, const LawTable& laws) {
-  for (std::size_t k = 0; laws.any_changes && k < c.size(); ++k) {
-    const FaceFields& m = states.before[k];
-    if (laws.rows[c.law[k]].changes && m.gate > 0.0) put_in_force(c, laws, m, k);
-  }
-}
 
 void update_joint_law(FaceSet& c, const BlockSet& b, const Pose& pose, const LawTable& laws,
                       FaceAtN& at_n, std::size_t k) {
@@ -221,7 +147,7 @@ void update_joint_law(FaceSet& c, const BlockSet& b, const Pose& pose, const Law
     if (law.type == LawType::barton_bandis) complete(c, b, pose, at_n, k);
     const double cut = std::abs(m.trial_a - m.slip_a) + std::abs(m.trial_b - m.slip_b);
     take_slip(c, laws, m, k, c.bonded(k) ? 0.0 : 0.5 * cut);
-    put_in_force(c, laws, m, k);
+    put_in_force(c, strength_at(c, laws, m, k), k);
     if (dilates(law) && m.energy > 0.0) lift(c, b, pose, laws, at_n, k);
     return;
   }

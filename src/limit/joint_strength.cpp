@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "contacts/joint_laws.hpp"
+#include "contacts/strength.hpp"
 
 namespace edda {
 namespace {

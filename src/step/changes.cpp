@@ -35,7 +35,8 @@ void take_strength_factors(Simulation& sim, const std::vector<double>& factors) 
   LawTable& laws = sim.motion.laws;
   if (factors == laws.divided_by) return;
   LawTable divided = divided_laws(sim.scene->model, factors);
-  change_faces(sim, [&](FaceSet& faces, FaceStates&) { take_strength(faces, laws, divided); });
+  change_faces(
+      sim, [&](FaceSet& faces, const FaceStates& states) { put_in_force(faces, states, divided); });
   laws = std::move(divided);
   reevaluate_faces(sim);
 }

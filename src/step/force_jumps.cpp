@@ -1,7 +1,6 @@
 // Forces that begin or end between two steps. Loads count half in the step in which they do
 // (attachments/loads.hpp). Contacts and springs begin or end at once; the velocities half a step
 // ago are corrected for that.
-#include "contacts/joint_laws.hpp"
 #include "integrate/leapfrog.hpp"
 #include "step/changes.hpp"
 #include "step/simulation.hpp"

@@ -316,9 +316,8 @@ TEST(BartonBandis, FrictionAndDilationInForce) {
     m.laws = divided_laws(m.model, {factor});
     const double depth = 1e-4;
     m.put_still(1, {{0.0, -depth}});
-    m.change([&](FaceSet& faces, const FaceStates& states) {
-      put_strengths_in_force(faces, states, m.laws);
-    });
+    m.change(
+        [&](FaceSet& faces, const FaceStates& states) { put_in_force(faces, states, m.laws); });
     const std::size_t k = m.main_face();
     const double angle = 28.0 + 8.0 * std::log10(50e6 / (2e9 * depth));
     EXPECT_NEAR(m.faces.friction[k], tangent(angle) / factor, 1e-6);
@@ -351,8 +350,7 @@ TEST(StrengthFactors, ApplyToTheStrengthInForce) {
   MovedBlocks m = bonded_square();
   const std::size_t k = bonded_face(m);
   const LawTable once = divided_laws(m.model, {1.25}), twice = divided_laws(m.model, {2.5});
-  take_strength(m.faces, m.laws, once);
-  take_strength(m.faces, once, twice);
+  for (const LawTable* laws : {&once, &twice}) put_in_force(m.faces, m.states(), *laws);
   EXPECT_NEAR(m.faces.friction[k], tangent(30.0) / 2.5, 1e-12);
   EXPECT_NEAR(m.faces.cohesion[k], cohesion * thickness / 2.5, 1e-6);
   EXPECT_NEAR(m.faces.tension[k], tension * thickness / 2.5, 1e-6);
