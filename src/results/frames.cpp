@@ -218,22 +218,34 @@ void FrameSeries::enter(double time) {
   contacts_.push_back({time, contacts_beside(blocks_.back().file)});
 }
 
-Trouble FrameSeries::add(const Picture& picture) {
-  enter(picture.time);
-  const std::string blocks = folder_ + "/" + blocks_.back().file;
-  const std::string contacts = folder_ + "/" + contacts_.back().file;
-  Trouble trouble = write_vtu(blocks, block_source(cells_, picture));
-  if (!trouble) trouble = write_vtu(contacts, contact_source(picture));
+Trouble FrameSeries::finish() {
+  Trouble trouble = writes_.valid() ? writes_.get() : Trouble{};
   if (trouble) {
     blocks_.pop_back();
     contacts_.pop_back();
-    return trouble;
   }
+  return trouble;
+}
+
+Trouble FrameSeries::add(Picture picture) {
+  if (auto t = finish()) return t;
   constexpr std::size_t few = 1000;
-  return blocks_.size() > in_series_ + in_series_ / few ? write_series() : Trouble{};
+  if (blocks_.size() > in_series_ + in_series_ / few) {
+    if (auto t = write_series()) return t;
+  }
+  enter(picture.time);
+  const auto write = [cells = &cells_, picture = std::move(picture),
+                      blocks = folder_ + "/" + blocks_.back().file,
+                      contacts = folder_ + "/" + contacts_.back().file] {
+    const Trouble trouble = write_vtu(blocks, block_source(*cells, picture));
+    return trouble ? trouble : write_vtu(contacts, contact_source(picture));
+  };
+  writes_ = std::async(std::launch::async, write);
+  return {};
 }
 
 Trouble FrameSeries::write_series() {
+  if (auto t = finish()) return t;
   if (in_series_ == blocks_.size()) return {};
   if (auto t = write_pvd(folder_ + "/blocks.pvd", blocks_)) return t;
   if (auto t = write_pvd(folder_ + "/contacts.pvd", contacts_)) return t;

@@ -1,6 +1,7 @@
 // One frame: the blocks as their exact polygons, and the contacts.
 #pragma once
 
+#include <future>
 #include <string>
 #include <vector>
 
@@ -39,10 +40,13 @@ std::string contacts_beside(std::string blocks_file);
 class FrameSeries {
  public:
   FrameSeries(std::string folder, const BlockSet& blocks);
-  /// Writes the frame. The time series names it at once while there are few; later they grow by a
+  FrameSeries(const FrameSeries&) = delete;
+  FrameSeries& operator=(const FrameSeries&) = delete;
+  /// Takes the frame, which a thread of its own writes; returns the trouble of the one before. The
+  /// time series names it as soon as it is written while there are few; later they grow by a
   /// thousandth at a time, so that many frames do not take the square of their number to write.
-  Trouble add(const Picture& picture);
-  /// Brings the time series up to the last frame.
+  Trouble add(Picture picture);
+  /// Waits for the last frame, and brings the time series up to it.
   Trouble write_series();
   /// Times of the frames so far, s; to continue after existing frames.
   std::vector<double> times() const;
@@ -50,10 +54,12 @@ class FrameSeries {
 
  private:
   void enter(double time);
+  Trouble finish();
   std::string folder_;
   BlockCells cells_;
   std::vector<SeriesEntry> blocks_, contacts_;
-  std::size_t in_series_ = 0;  ///< frames that the written series name
+  std::size_t in_series_ = 0;    ///< frames that the written series name
+  std::future<Trouble> writes_;  ///< the last one; destroyed first, which waits for it
 };
 
 }  // namespace edda

@@ -5,10 +5,10 @@
 #include <bit>
 #include <charconv>
 #include <cstring>
-#include <functional>
 #include <optional>
 #include <string_view>
 
+#include "results/deflate.hpp"
 #include "results/number.hpp"
 
 namespace edda {
@@ -32,68 +32,94 @@ const Field* Grid::point_field(const std::string& name) const {
 
 namespace {
 
-/// The XML, and the data that follows it: for each array a count of bytes (UInt64), then the
-/// values. Nothing is copied but a piece of a field at a time.
+constexpr std::size_t in_a_block = std::size_t{1} << 18;  // bytes, each deflated by itself
+
+/// The XML, and the data that follows it: of each array the number of blocks, the size of a block
+/// and of the last one where it is shorter (else 0), the sizes of the deflated blocks (all UInt64),
+/// then these. Only what is deflated is in memory.
 class Writer {
  public:
   std::string xml;
 
   template <class T>
   void array(const std::string& attributes, const char* type, const std::vector<T>& values) {
-    announce(attributes, type, values.size() * sizeof(T));
-    pieces_.emplace_back([&values](WholeFile& file) {
-      const std::uint64_t size = values.size() * sizeof(T);
-      file.add({reinterpret_cast<const char*>(&size), sizeof size});
-      file.add({reinterpret_cast<const char*>(values.data()), size});
-    });
+    announce(attributes, type, data_.size());
+    begin(values.size() * sizeof(T));
+    add({reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T)});
+    end();
   }
-  void field(const FieldSource& f) {
+  /// Returns where its data begin.
+  std::size_t field(const FieldSource& f) {
+    const std::size_t at = data_.size();
+    announce(f, at);
+    f.whole ? make<std::int32_t>(f) : make<double>(f);
+    return at;
+  }
+  /// A field whose data have been written, and begin there.
+  void announce(const FieldSource& f, std::size_t at) {
     std::string attributes =
         fmt::format("Name=\"{}\" NumberOfComponents=\"{}\"", f.name, f.components);
     for (std::size_t k = 0; k < f.component_names.size(); ++k) {
       attributes += fmt::format(" ComponentName{}=\"{}\"", k, f.component_names[k]);
     }
-    if (f.whole) {
-      made<std::int32_t>(attributes, "Int32", f);
-    } else {
-      made<double>(attributes, "Float64", f);
-    }
+    announce(attributes, f.whole ? "Int32" : "Float64", at);
   }
   Trouble write(const std::string& path) const {
     WholeFile file(path);
     file.add(xml);
-    for (const auto& piece : pieces_) piece(file);
+    file.add(data_);
     file.add("\n</AppendedData>\n</VTKFile>\n");
     return file.complete();
   }
 
  private:
+  void announce(const std::string& attributes, const char* type, std::size_t at) {
+    xml += fmt::format("<DataArray type=\"{}\" {} format=\"appended\" offset=\"{}\"/>\n", type,
+                       attributes, at);
+  }
   /// An array of Number that is made piece by piece.
   template <class Number>
-  void made(const std::string& attributes, const char* type, const FieldSource& f) {
-    announce(attributes, type, f.count * f.components * sizeof(Number));
-    pieces_.emplace_back([&f](WholeFile& file) {
-      const std::uint64_t size = f.count * f.components * sizeof(Number);
-      file.add({reinterpret_cast<const char*>(&size), sizeof size});
-      constexpr std::size_t at_once = 4096;
-      std::vector<double> values(at_once * f.components);
-      std::vector<Number> numbers;
-      for (std::size_t first = 0; first < f.count; first += at_once) {
-        const std::size_t end = std::min(first + at_once, f.count);
-        f.fill(first, end, values.data());
-        numbers.assign(values.begin(),
-                       values.begin() + static_cast<std::ptrdiff_t>((end - first) * f.components));
-        file.add({reinterpret_cast<const char*>(numbers.data()), numbers.size() * sizeof(Number)});
-      }
-    });
+  void make(const FieldSource& f) {
+    begin(f.count * f.components * sizeof(Number));
+    constexpr std::size_t at_once = 4096;
+    std::vector<double> values(at_once * f.components);
+    std::vector<Number> numbers;
+    for (std::size_t first = 0; first < f.count; first += at_once) {
+      const std::size_t last = std::min(first + at_once, f.count);
+      f.fill(first, last, values.data());
+      numbers.assign(values.begin(),
+                     values.begin() + static_cast<std::ptrdiff_t>((last - first) * f.components));
+      add({reinterpret_cast<const char*>(numbers.data()), numbers.size() * sizeof(Number)});
+    }
+    end();
   }
-  void announce(const std::string& attributes, const char* type, std::size_t size) {
-    xml += fmt::format("<DataArray type=\"{}\" {} format=\"appended\" offset=\"{}\"/>\n", type,
-                       attributes, offset_);
-    offset_ += sizeof(std::uint64_t) + size;
+  /// Begins an array of so many bytes.
+  void begin(std::size_t size) {
+    sizes_ = {(size + in_a_block - 1) / in_a_block, in_a_block, size % in_a_block};
+    header_ = data_.size();
+    data_.resize(header_ + (sizes_.size() + sizes_.front()) * sizeof(std::uint64_t));
   }
-  std::size_t offset_ = 0;
-  std::vector<std::function<void(WholeFile&)>> pieces_;
+  void add(std::string_view bytes) {
+    while (!bytes.empty()) {
+      const std::string_view part = bytes.substr(0, in_a_block - block_.size());
+      block_ += part;
+      bytes.remove_prefix(part.size());
+      if (block_.size() == in_a_block) deflate();
+    }
+  }
+  void end() {
+    if (!block_.empty()) deflate();
+    std::memcpy(data_.data() + header_, sizes_.data(), sizes_.size() * sizeof(std::uint64_t));
+  }
+  void deflate() {
+    const std::string packed = deflated(block_, true);
+    sizes_.push_back(packed.size());
+    data_ += packed;
+    block_.clear();
+  }
+  std::string data_, block_;          ///< block_: not deflated yet
+  std::vector<std::uint64_t> sizes_;  ///< of the array, as they precede it
+  std::size_t header_ = 0;            ///< where it begins
 };
 
 Fault bad_file(const std::string& path, std::string problem) {
@@ -120,16 +146,45 @@ std::optional<T> number_in(const std::string& text) {
   return value;
 }
 
+/// A number of the header of an array; none behind the end of the bytes.
+std::optional<std::uint64_t> number_at(std::string_view bytes, std::size_t at) {
+  std::uint64_t number = 0;
+  if (at > bytes.size() || bytes.size() - at < sizeof number) return {};
+  std::memcpy(&number, bytes.data() + at, sizeof number);
+  return number;
+}
+
+/// The bytes of the array that begins there.
+std::optional<std::string> bytes_of_array(std::string_view bytes, std::size_t at) {
+  constexpr std::size_t step = sizeof(std::uint64_t);
+  const auto blocks = number_at(bytes, at), size = number_at(bytes, at + step),
+             rest = number_at(bytes, at + 2 * step);
+  if (!blocks || !size || !rest || *blocks > bytes.size() / step || *size > in_a_block ||
+      *rest >= std::max<std::uint64_t>(*size, 1))
+    return {};
+  std::string all;
+  std::size_t from = at + (3 + *blocks) * step;
+  for (std::uint64_t n = 0; n < *blocks; ++n) {
+    const auto packed = number_at(bytes, at + (3 + n) * step);
+    if (!packed || from > bytes.size() || *packed > bytes.size() - from) return {};
+    const bool last = n + 1 == *blocks && *rest > 0;
+    const auto block = inflated(bytes.substr(from, *packed), last ? *rest : *size);
+    if (!block) return {};
+    all += *block;
+    from += *packed;
+  }
+  return all;
+}
+
 /// The values of one <DataArray> tag, from the bytes behind the XML.
 template <class T>
 bool values_of(std::string_view tag, std::string_view bytes, std::vector<T>& out) {
   const auto offset = number_in<std::size_t>(attribute(tag, "offset"));
-  std::uint64_t size = 0;
-  if (!offset || *offset > bytes.size() || bytes.size() - *offset < sizeof size) return false;
-  std::memcpy(&size, bytes.data() + *offset, sizeof size);
-  if (size % sizeof(T) != 0 || size > bytes.size() - *offset - sizeof size) return false;
-  out.resize(size / sizeof(T));
-  if (size > 0) std::memcpy(out.data(), bytes.data() + *offset + sizeof size, size);
+  if (!offset) return false;
+  const std::optional<std::string> found = bytes_of_array(bytes, *offset);
+  if (!found || found->size() % sizeof(T) != 0) return false;
+  out.resize(found->size() / sizeof(T));
+  if (!found->empty()) std::memcpy(out.data(), found->data(), found->size());
   return true;
 }
 
@@ -252,15 +307,24 @@ Trouble write(const std::string& path, const Grid& grid,
       "<!-- Stresses of blocks are positive in tension, normal forces and normal stresses of "
       "joints in compression; all values are in SI units, angles in rad. -->\n"
       "<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" "
-      "header_type=\"UInt64\">\n<UnstructuredGrid>\n<FieldData>\n";
+      "header_type=\"UInt64\" "
+      "compressor=\"vtkZLibDataCompressor\">\n<UnstructuredGrid>\n<FieldData>\n";
   const std::vector<double> time{grid.time};
   w.array("Name=\"TimeValue\" NumberOfTuples=\"1\"", "Float64", time);
   w.xml +=
       fmt::format("</FieldData>\n<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n<PointData>\n",
                   grid.point_count(), grid.cell_count());
-  for (const FieldSource& f : grid.cells_are_points ? cell_fields : point_fields) w.field(f);
+  std::vector<std::size_t> at;
+  for (const FieldSource& f : grid.cells_are_points ? cell_fields : point_fields)
+    at.push_back(w.field(f));
   w.xml += "</PointData>\n<CellData>\n";
-  for (const FieldSource& f : cell_fields) w.field(f);
+  for (std::size_t n = 0; n < cell_fields.size(); ++n) {
+    if (grid.cells_are_points) {
+      w.announce(cell_fields[n], at[n]);
+    } else {
+      w.field(cell_fields[n]);
+    }
+  }
   w.xml += "</CellData>\n<Points>\n";
   w.array("Name=\"Points\" NumberOfComponents=\"3\"", "Float64", grid.points);
   w.xml += "</Points>\n<Cells>\n";

@@ -286,9 +286,9 @@ bool Driver::record(const Event& event) {
   }
   if (fine && event.frame && recorder_.writes()) {
     last_frame_ = sim_.motion.state.time;
-    const Picture picture = picture_of(sim_, instant);
+    Picture picture = picture_of(sim_, instant);
     forget_instant();
-    fine = !ended_by(recorder_.frame(sim_, picture));
+    fine = !ended_by(recorder_.frame(sim_, std::move(picture)));
   }
   outcome_.wall.output += since(start);
   if (!fine || over_ || !event.row) return fine;

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <utility>
+
 #include "model/files/time_history.hpp"
 #include "model/write_model.hpp"
 #include "observe/attachment_rows.hpp"
@@ -139,11 +141,11 @@ Trouble Recorder::stage_joints(std::size_t stage, const Picture& picture) {
   return write_columns_csv(folder_, owners_);
 }
 
-Trouble Recorder::frame(const Simulation& sim, const Picture& picture) {
+Trouble Recorder::frame(const Simulation& sim, Picture picture) {
   if (has_bolts(sim.scene->model)) {
     if (auto t = bolts_.add(bolts_rows(sim))) return t;
   }
-  return frames_ ? frames_->add(picture) : Trouble{};
+  return frames_ ? frames_->add(std::move(picture)) : Trouble{};
 }
 
 Trouble Recorder::tables(const Picture& picture) {

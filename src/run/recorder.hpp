@@ -41,7 +41,7 @@ class Recorder {
   Trouble row(const Simulation& sim, const Instant& at, const std::vector<MonitorPoint>& monitors,
               const std::vector<ConvergenceLine>& lines, const EnergyBalance& energy,
               double unbalanced);
-  Trouble frame(const Simulation& sim, const Picture& picture);
+  Trouble frame(const Simulation& sim, Picture picture);
   /// stages.csv, with the stages so far.
   Trouble stages(const std::string& csv);
   /// curve.csv, with the increments of ramps so far.

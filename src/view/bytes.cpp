@@ -1,9 +1,6 @@
 #include "view/bytes.hpp"
 
-#include <zlib.h>
-
 #include <bit>
-#include <new>
 
 namespace edda {
 
@@ -21,17 +18,6 @@ void Bytes::varint(std::uint64_t value) {
 void Bytes::zigzag(std::int64_t value) {
   const auto twice = static_cast<std::uint64_t>(value) << 1;
   varint(value < 0 ? ~twice : twice);
-}
-
-std::string deflated(std::string_view bytes) {
-  uLongf size = compressBound(bytes.size());
-  std::string packed(size, '\0');
-  const int outcome = compress2(reinterpret_cast<Bytef*>(packed.data()), &size,
-                                reinterpret_cast<const Bytef*>(bytes.data()), bytes.size(), 6);
-  if (outcome != Z_OK)
-    throw std::bad_alloc();  // the only failure possible with room for the worst case
-  packed.resize(size);
-  return packed;
 }
 
 std::string base64(std::string_view bytes) {

@@ -1,4 +1,4 @@
-// Bytes of the replay page: little-endian numbers, deflated, as text.
+// Bytes of the replay page: little-endian numbers, as text.
 #pragma once
 
 #include <cstdint>
@@ -30,9 +30,6 @@ class Bytes {
   }
   std::string bytes_;
 };
-
-/// zlib's format (RFC 1950), which a browser's DecompressionStream calls "deflate".
-std::string deflated(std::string_view bytes);
 
 /// RFC 4648, with padding.
 std::string base64(std::string_view bytes);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "results/deflate.hpp"
 #include "view/bytes.hpp"
 
 namespace edda {

@@ -10,6 +10,7 @@
 #include <optional>
 #include <thread>
 
+#include "results/deflate.hpp"
 #include "results/json.hpp"
 #include "view/bytes.hpp"
 #include "view/page.hpp"

@@ -1,7 +1,6 @@
 #include "view/bytes.hpp"
 
 #include <gtest/gtest.h>
-#include <zlib.h>
 
 #include <string>
 
@@ -36,19 +35,6 @@ TEST(Bytes, Base64HasTheVectorsOfItsStandard) {
   EXPECT_EQ(base64("foo"), "Zm9v");
   EXPECT_EQ(base64("foobar"), "Zm9vYmFy");
   EXPECT_EQ(base64("\xff\xfe\xfd"), "//79");
-}
-
-TEST(Bytes, WhatIsDeflatedInflatesToTheSame) {
-  std::string text;
-  for (unsigned k = 0; k < 100000; ++k) text += static_cast<char>(k * k % 251);
-  const std::string packed = deflated(text);
-  EXPECT_LT(packed.size(), text.size() / 2);
-  std::string back(text.size(), '\0');
-  uLongf size = back.size();
-  ASSERT_EQ(uncompress(reinterpret_cast<Bytef*>(back.data()), &size,
-                       reinterpret_cast<const Bytef*>(packed.data()), packed.size()),
-            Z_OK);
-  EXPECT_EQ(back, text);
 }
 
 }  // namespace

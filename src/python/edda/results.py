@@ -9,6 +9,7 @@ import os
 import pathlib
 import re
 import xml.etree.ElementTree as ElementTree
+import zlib
 from collections.abc import Iterator, Sequence
 from typing import Any, overload
 
@@ -344,7 +345,7 @@ _TYPES = {"Float64": np.float64, "Int32": np.int32, "Int64": np.int64, "UInt8": 
 
 
 def _read_vtu(path: pathlib.Path) -> dict[str, dict[str, NDArray[Any]]]:
-    """Arrays of a .vtu file by section and name: XML, then raw bytes, each behind its length."""
+    """Arrays of a .vtu file by section and name: XML, then their bytes, deflated in blocks."""
     content = path.read_bytes()
     head = re.search(rb"<AppendedData[^>]*>\s*_", content)
     if head is None:
@@ -360,8 +361,10 @@ def _read_vtu(path: pathlib.Path) -> dict[str, dict[str, NDArray[Any]]]:
 
 def _appended(content: bytes, start: int, attributes: dict[str, str]) -> NDArray[Any]:
     at = start + int(attributes["offset"])
-    size = int.from_bytes(content[at : at + 8], "little")
-    dtype = np.dtype(_TYPES[attributes["type"]])
-    values = np.frombuffer(content, dtype, size // dtype.itemsize, at + 8)
+    blocks = int.from_bytes(content[at : at + 8], "little")
+    sizes = np.frombuffer(content, np.uint64, blocks, at + 24).astype(np.int64)
+    ends = at + 24 + 8 * blocks + np.cumsum(sizes)
+    whole = b"".join(zlib.decompress(content[end - size : end]) for end, size in zip(ends, sizes))
+    values = np.frombuffer(whole, np.dtype(_TYPES[attributes["type"]]))
     width = int(attributes.get("NumberOfComponents", "1"))
     return values.reshape(-1, width) if width > 1 else values
