@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "contacts/chunk_columns.hpp"
+#include "contacts/face_energy.hpp"
 #include "contacts/face_step.hpp"
 
 namespace edda {
@@ -265,6 +266,24 @@ EDDA_INLINE ChunkFound evaluate_lanes(const ChunkView& given) {
   }
   return all;
 }
+
+/// The energy that a face stores between n - 1 and n, and its normal force.
+EDDA_INLINE void measure_lane(const ChunkColumns& c, ChunkMeasures& to, std::size_t k) {
+  const FacePair pair = pair_of(c, k);
+  const FacePoints at = points_of(*c.e, *c.f, k), then = points_of(*c.e_then, *c.f_then, k);
+  const EdgeGeometry stands = geometry_of_edges(at, pair), stood = geometry_of_edges(then, pair);
+  const Face now = face_between(stands, pair), old = face_between(stood, pair);
+  const EndMotion moved = motion_of(now, stands.corners(), stood.corners(), pair.length_ratio);
+  const LaneBits bit = bit_of_lane[k];
+  const bool stores = (c.was & (bit << lane_bits::stored)) != 0,
+             on = (c.was & (bit << lane_bits::on)) != 0;
+  const bool tension = c.carries_tension[k] > 0.0, bonded = c.bonded[k] > 0.0;
+  const double pressure = stored_between(old, then, now, at, tension);
+  to.energy[k] =
+      face_energy(pressure, {c.before.spring[k], {c.before.slip_a[k], c.before.slip_b[k]}, stores},
+                  {moved.slip.a, moved.slip.b}, tension);
+  to.normal[k] = stores | (bonded & on) ? now.normal.a + now.normal.b : 0.0;
+}
 }  // namespace
 
 SweepTables tables_of(FaceTiles& t, std::size_t tile, double* on, double step,
@@ -353,6 +372,13 @@ EDDA_VECTOR ChunkFound look_at(const ChunkView& given) {
     asking |= s.may_close ? bit << lane_bits::decides : 0;
   }
   return {bits, asking, 0.0};
+}
+
+EDDA_VECTOR void measure_faces(const ChunkView& given, ChunkMeasures& to) {
+  ChunkColumns c = columns_of<Tables::constants_alone>(given);
+  c.before = columns_from<FaceMemoryColumns<const double*>>(given.before);
+#pragma omp simd
+  for (std::size_t k = 0; k < lanes; ++k) measure_lane(c, to, k);
 }
 
 EDDA_VECTOR void read_edges(const double* from, const Id* slot_e, const Id* slot_f, Records& e,

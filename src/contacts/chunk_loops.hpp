@@ -133,6 +133,14 @@ ChunkFound evaluate_limited_damped(const ChunkView& chunk);
 /// found: one needs more than that.
 ChunkFound look_at(const ChunkView& chunk);
 
+/// What a row of results needs of the faces of a chunk: the energy that is stored between n - 1 and
+/// n, J, and the normal force at n, N.
+struct ChunkMeasures {
+  alignas(64) double energy[lanes], normal[lanes];
+};
+/// `was` of the chunk is that of n; e_then, f_then: the edges at n - 1.
+void measure_faces(const ChunkView& chunk, ChunkMeasures& to);
+
 /// Margins by which the corners of faces that rest, and that sleep, may stray, m.
 using RestMargins = std::array<double, rest_levels>;
 

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "base/vector_loop.hpp"
+#include "contacts/face_states.hpp"
 #include "contacts/face_tiles.hpp"
 
 namespace edda {
@@ -71,6 +72,73 @@ void for_memory(const FaceTiles& t, Visit visit) {
   visit.template operator()<FaceMemoryColumns<double>>();
   if (t.dashpots) visit.template operator()<DashpotMemoryColumns<double>>();
   if (t.slip_laws) visit.template operator()<PressureColumns<double>>();
+}
+
+/// A column that holds a member of FaceFields.
+template <class Fields>
+struct KeptField {
+  double FaceFields::*state;
+  double Fields::*column;
+};
+/// Those of a table; but for the corners, which are no part of a state, all of its columns.
+template <class Fields>
+inline constexpr std::array<KeptField<Fields>, 0> kept_fields{};
+template <>
+inline constexpr std::array kept_fields<FaceMemoryColumns<double>> = [] {
+  using F = FaceFields;
+  using C = FaceMemoryColumns<double>;
+  return std::array{KeptField<C>{&F::slip_a, &C::slip_a}, KeptField<C>{&F::slip_b, &C::slip_b},
+                    KeptField<C>{&F::overlap, &C::overlap}, KeptField<C>{&F::spring, &C::spring}};
+}();
+template <>
+inline constexpr std::array kept_fields<DashpotMemoryColumns<double>> = [] {
+  using F = FaceFields;
+  using C = DashpotMemoryColumns<double>;
+  return std::array{KeptField<C>{&F::damping_a, &C::damping_a},
+                    KeptField<C>{&F::damping_b, &C::damping_b},
+                    KeptField<C>{&F::shear_damping_a, &C::shear_damping_a},
+                    KeptField<C>{&F::shear_damping_b, &C::shear_damping_b},
+                    KeptField<C>{&F::strike_a, &C::strike_a},
+                    KeptField<C>{&F::strike_b, &C::strike_b}};
+}();
+template <>
+inline constexpr std::array kept_fields<PressureColumns<double>> = [] {
+  using F = FaceFields;
+  using C = PressureColumns<double>;
+  return std::array{KeptField<C>{&F::normal_a, &C::normal_a},
+                    KeptField<C>{&F::normal_b, &C::normal_b}, KeptField<C>{&F::length, &C::length},
+                    KeptField<C>{&F::cohesive, &C::cohesive}};
+}();
+template <>
+inline constexpr std::array kept_fields<FaceWorkColumns<double>> = [] {
+  using F = FaceFields;
+  using C = FaceWorkColumns<double>;
+  return std::array{KeptField<C>{&F::friction_work, &C::friction_work},
+                    KeptField<C>{&F::transfer, &C::transfer},
+                    KeptField<C>{&F::trial_a, &C::trial_a},
+                    KeptField<C>{&F::trial_b, &C::trial_b},
+                    KeptField<C>{&F::shear_a, &C::shear_a},
+                    KeptField<C>{&F::shear_b, &C::shear_b},
+                    KeptField<C>{&F::damping_work, &C::damping_work},
+                    KeptField<C>{&F::damping_due, &C::damping_due}};
+}();
+inline constexpr std::size_t corner_columns = 5;
+static_assert(kept_fields<FaceMemoryColumns<double>>.size() + corner_columns == memory_columns &&
+                  kept_fields<DashpotMemoryColumns<double>>.size() == dashpot_memory_columns &&
+                  kept_fields<PressureColumns<double>>.size() == pressure_columns &&
+                  kept_fields<FaceWorkColumns<double>>.size() == work_columns,
+              "a column is not listed");
+
+/// What a table holds of the state of a face.
+template <class Fields>
+Fields columns_of_state(const FaceFields& m) {
+  Fields columns{};
+  for (const KeptField<Fields>& kept : kept_fields<Fields>) columns.*kept.column = m.*kept.state;
+  return columns;
+}
+template <class Fields>
+void take_columns(FaceFields& m, const Fields& columns) {
+  for (const KeptField<Fields>& kept : kept_fields<Fields>) m.*kept.state = columns.*kept.column;
 }
 
 /// The numbers of a chunk in one of these, of step n (which = FaceTiles::now) or n - 1. The tile

@@ -84,18 +84,8 @@ Id set_of(ConstantSets& sets, Id was, const double* numbers, std::size_t columns
 void load_memory(FaceTiles& t, const FaceSet& c, const FaceFields& m, const std::vector<double>& x,
                  const std::vector<double>& y, int which, std::size_t place, std::size_t k) {
   if (t.holds(place / lanes)) {
-    const EdgeCoordinates at = coordinates_at(c, x, y, k);
-    put(t, which, place,
-        FaceMemoryColumns<double>{m.slip_a, m.slip_b, m.overlap, m.spring, at.s2, at.y2, at.r1,
-                                  at.r2, at.z2});
-    if (t.dashpots) {
-      put(t, which, place,
-          DashpotMemoryColumns<double>{m.damping_a, m.damping_b, m.shear_damping_a,
-                                       m.shear_damping_b, m.strike_a, m.strike_b});
-    }
-    if (t.slip_laws) {
-      put(t, which, place, PressureColumns<double>{m.normal_a, m.normal_b, m.length, m.cohesive});
-    }
+    for_memory(t, [&]<class Fields>() { put(t, which, place, columns_of_state<Fields>(m)); });
+    load_corners(t, coordinates_at(c, x, y, k), which, place);
   }
   const bool stored = m.energy > 0.0, touches = stored || m.spring > 0.0;
   LaneBits& bits = t.bits[which][place / lanes];
@@ -135,9 +125,7 @@ void load_work(FaceTiles& t, const FaceFields& m, bool opens, int which, std::si
   const std::size_t q = place / lanes;
   if (opens || is_busy(m)) begin_work(t, which, q);
   if (t.fresh[which][q] != 0) {
-    put(t, which, place,
-        FaceWorkColumns<double>{m.friction_work, m.transfer, m.trial_a, m.trial_b, m.shear_a,
-                                m.shear_b, m.damping_work, m.damping_due});
+    put(t, which, place, columns_of_state<FaceWorkColumns<double>>(m));
   }
   set_bit(t.found[which][q], lane_bits::opens, place % lanes, opens);
   set_bit(t.found[which][q], lane_bits::slides, place % lanes, slides(m));

@@ -13,8 +13,6 @@ namespace edda {
 FaceFields remembered(const FaceTiles& t, int which, std::size_t k) {
   const Id place = t.place[k][0];
   const auto memory = get<FaceMemoryColumns<double>>(t, which, place);
-  const bool kept = t.fresh[which][place / lanes] != 0;
-  const auto work = kept ? get<FaceWorkColumns<double>>(t, which, place) : no_work(memory);
   const LaneBits bits = t.bits[which][place / lanes];
   const auto was = [&](unsigned of) {
     return lane_bits::test(bits, of, place % lanes) ? 1.0 : 0.0;
@@ -25,33 +23,10 @@ FaceFields remembered(const FaceTiles& t, int which, std::size_t k) {
   m.closure_a = was(lane_bits::closed_a);
   m.closure_b = was(lane_bits::closed_b);
   m.switched = was(lane_bits::switched);
-  m.slip_a = memory.slip_a;
-  m.slip_b = memory.slip_b;
-  m.spring = memory.spring;
-  m.overlap = memory.spring > 0.0 ? memory.overlap : 0.0;
-  m.trial_a = work.trial_a;
-  m.trial_b = work.trial_b;
-  m.shear_a = work.shear_a;
-  m.shear_b = work.shear_b;
-  m.friction_work = work.friction_work;
-  m.transfer = work.transfer;
-  if (t.slip_laws) {
-    const auto pressure = get<PressureColumns<double>>(t, which, place);
-    m.normal_a = pressure.normal_a;
-    m.normal_b = pressure.normal_b;
-    m.length = pressure.length;
-    m.cohesive = pressure.cohesive;
-  }
-  if (!t.dashpots) return m;
-  const auto dashpots = get<DashpotMemoryColumns<double>>(t, which, place);
-  m.damping_a = dashpots.damping_a;
-  m.damping_b = dashpots.damping_b;
-  m.shear_damping_a = dashpots.shear_damping_a;
-  m.shear_damping_b = dashpots.shear_damping_b;
-  m.strike_a = dashpots.strike_a;
-  m.strike_b = dashpots.strike_b;
-  m.damping_work = work.damping_work;
-  m.damping_due = work.damping_due;
+  for_memory(t, [&]<class Fields>() { take_columns(m, get<Fields>(t, which, place)); });
+  const bool kept = t.fresh[which][place / lanes] != 0;
+  take_columns(m, kept ? get<FaceWorkColumns<double>>(t, which, place) : no_work(memory));
+  if (!(m.spring > 0.0)) m.overlap = 0.0;
   return m;
 }
 

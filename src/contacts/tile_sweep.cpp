@@ -201,10 +201,8 @@ struct EdgesAlone {
 constexpr Id slots_alone[2 * lanes] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
 
 /// Reads the edges of a chunk from the vertices, those at n - 1 if `then`.
-void read_vertices(const FaceTiles& t, const SweepScene& scene, std::size_t q, bool then,
-                   EdgesAlone& to) {
-  const BlockSet& b = scene.blocks;
-  const Pose& p = scene.pose;
+void read_vertices(const FaceTiles& t, const FaceSet& faces, const BlockSet& b, const Pose& p,
+                   std::size_t q, bool then, EdgesAlone& to) {
   const auto put = [](double* record, const std::array<double, 4>& numbers) {
     std::copy(numbers.begin(), numbers.end(), record);
   };
@@ -216,8 +214,8 @@ void read_vertices(const FaceTiles& t, const SweepScene& scene, std::size_t q, b
   for (std::size_t lane = 0; lane < lanes; ++lane) {
     const Id k = t.face[q * lanes + lane];
     if (k != no_id) {
-      read(lane, scene.faces.edge[k]);
-      read(lanes + lane, scene.faces.facing[k]);
+      read(lane, faces.edge[k]);
+      read(lanes + lane, faces.facing[k]);
     } else {
       for (auto* of : {to.at, to.then}) put(of[lane], {}), put(of[lanes + lane], {});
     }
@@ -300,7 +298,7 @@ SweepResult sweep_chunks(FaceTiles& t, const SweepScene& scene, std::size_t tile
   for (const std::size_t q : chunks) {
     EdgesAlone alone;
     const bool then = t.tiles[tile].takes_then;
-    read_vertices(t, scene, q, then, alone);
+    read_vertices(t, scene.faces, scene.blocks, scene.pose, q, then, alone);
     const ChunkEdges edges{scene,       alone.at[0],         then ? alone.then[0] : nullptr,
                            slots_alone, slots_alone + lanes, q};
     ChunkStand stand;
@@ -312,6 +310,40 @@ SweepResult sweep_chunks(FaceTiles& t, const SweepScene& scene, std::size_t tile
     t.deepest[q] = scene.corrects ? std::max(t.deepest[q], here.deepest) : here.deepest;
   }
   return result_of(found);
+}
+
+void measure_tile(const FaceTiles& t, const FaceSet& c, const BlockSet& b, const Pose& pose,
+                  std::size_t tile, std::vector<double>& energy, std::vector<double>& normal) {
+  const TileNumbers& numbers = t.numbers[tile];
+  SweepTables tables{};
+  tables.edges = t.constants[tile].edges.numbers.data();
+  tables.strengths = t.constants[tile].strengths.numbers.data();
+  tables.edge_set = t.edge_set.data();
+  tables.strength_set = t.strength_set.data();
+  tables.was = t.bits[t.now].data();
+  for (std::size_t n = 0; n < numbers.chunks; ++n) {
+    const std::size_t q = numbers.first_chunk + n;
+    const bool stores = (t.bits[t.now][q] & lane_bits::field(lane_bits::stored)) != 0;
+    if (!stores && t.idle[1 - t.now][q] != 0 && t.bonds[q] == 0) continue;
+    EdgesAlone alone;
+    Records e, f, e_then, f_then;
+    read_vertices(t, c, b, pose, q, true, alone);
+    read_edges(alone.at[0], slots_alone, slots_alone + lanes, e, f);
+    read_edges(alone.then[0], slots_alone, slots_alone + lanes, e_then, f_then);
+    ChunkView view = view_of_constants(tables, q);
+    view.before = numbers.memory[1 - t.now].data() + n * memory_columns * lanes;
+    view.e = &e;
+    view.f = &f;
+    view.e_then = &e_then;
+    view.f_then = &f_then;
+    ChunkMeasures all;
+    measure_faces(view, all);
+    for (std::size_t lane = 0; lane < lanes; ++lane) {
+      if ((t.owned[q] >> lane & 1u) == 0) continue;
+      energy[t.face[q * lanes + lane]] = all.energy[lane];
+      normal[t.face[q * lanes + lane]] = all.normal[lane];
+    }
+  }
 }
 
 void gather_tile(const FaceTiles& t, const BlockSet& b, std::size_t tile,

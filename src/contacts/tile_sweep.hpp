@@ -53,6 +53,13 @@ SweepResult sweep_tile(FaceTiles& tiles, const SweepScene& scene, std::size_t ti
 SweepResult sweep_chunks(FaceTiles& tiles, const SweepScene& scene, std::size_t tile,
                          std::span<const Id> chunks);
 
+/// The energy that the faces of a tile store between steps n - 1 and n, J, and their normal forces
+/// at n without those of dashpots, N; [nf] each, of which those of owned copies are set that have
+/// carried anything.
+void measure_tile(const FaceTiles& tiles, const FaceSet& faces, const BlockSet& blocks,
+                  const Pose& pose, std::size_t tile, std::vector<double>& energy,
+                  std::vector<double>& normal);
+
 /// Stores the forces of the faces on the nodes and modes of those own blocks of a tile that are
 /// `wanted`
 /// ([nb]), N. The records of the tile must be kept.

@@ -46,7 +46,9 @@ class FrameSeries {
   /// time series names it as soon as it is written while there are few; later they grow by a
   /// thousandth at a time, so that many frames do not take the square of their number to write.
   Trouble add(Picture picture);
-  /// Waits for the last frame, and brings the time series up to it.
+  /// Waits for the last frame.
+  Trouble finish();
+  /// The same, and brings the time series up to it.
   Trouble write_series();
   /// Times of the frames so far, s; to continue after existing frames.
   std::vector<double> times() const;
@@ -54,7 +56,6 @@ class FrameSeries {
 
  private:
   void enter(double time);
-  Trouble finish();
   std::string folder_;
   BlockCells cells_;
   std::vector<SeriesEntry> blocks_, contacts_;

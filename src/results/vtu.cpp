@@ -367,6 +367,8 @@ Result<Grid> read_vtu(const std::string& path) {
   const std::size_t split = text.find(mark);
   if (split == std::string_view::npos) return bad_file(path, "is no frame of a run");
   const std::string_view xml = text.substr(0, split), bytes = text.substr(split + mark.size());
+  if (xml.find("vtkZLibDataCompressor") == std::string_view::npos)
+    return bad_file(path, "is no frame of this version of edda");
   Grid grid;
   std::string section;
   for (std::size_t at = xml.find('<'); at != std::string_view::npos; at = xml.find('<', at + 1)) {

@@ -115,6 +115,7 @@ class Driver {
   std::string equilibrium_of_stage() const;
   std::string not_in_equilibrium() const;
   /// Message where otherwise = "stop" ends the run.
+  std::string all_left() const;
   std::string stopped_by(const std::string& loose) const;
   /// "at rest", or what still moves, and how fast.
   std::string motion_at_end() const;

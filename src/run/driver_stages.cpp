@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <functional>
 #include <utility>
 #include <vector>
 
@@ -109,37 +110,36 @@ bool Driver::end_stage(Arrival went) {
   }
   if (now.to_equilibrium() && now.falling != FallingBlocks::wait)
     outcome_.loose = std::max(outcome_.loose, loose_blocks(sim_).size());
-  const std::string label = stage_label(sim_.scene->model, stage_);
-  if (failed && !reached) {
-    end(Status::collapsed, end_of_ramp(false) + not_in_equilibrium());
-    return false;
-  }
-  if (went == Arrival::no_equilibrium && !reached) {
-    end(Status::collapsed, fmt::format("{} does not reach equilibrium: each block slides or falls, "
-                                       "and has left its place: {}",
-                                       label, still_moving(sim_, ends_.back().balance)));
-    return false;
-  }
   const bool last = stage_ + 1 == plans_.size() || options_.last_stage == stage_;
-  if (!reached && !at_rest) return end_without_equilibrium(last);
-  if (at_rest && now.otherwise == LooseBlocks::stop) {
-    if (const std::string loose = not_in_equilibrium(); !loose.empty()) {
-      end(Status::collapsed, stopped_by(loose));
-      return false;
-    }
-  }
-  if (last) {
-    if (now.ramp) {
-      end(at_rest ? Status::equilibrium : Status::completed,
-          end_of_ramp(at_rest) + not_in_equilibrium());
-    } else if (at_rest) {
-      end(Status::equilibrium, equilibrium_of_stage() + not_in_equilibrium());
-    } else {
-      end(Status::completed, "the run has reached its duration, " + motion_at_end());
-    }
+  if (went == Arrival::there && !reached) return end_without_equilibrium(last);
+  const bool stops = at_rest && now.otherwise == LooseBlocks::stop;
+  const std::string loose = stops || last || failed ? not_in_equilibrium() : std::string();
+  // The first that applies ends the run.
+  const struct {
+    bool applies;
+    Status status;
+    std::function<std::string()> message;
+  } endings[] = {
+      {failed && !reached, Status::collapsed, [&] { return end_of_ramp(false) + loose; }},
+      {went == Arrival::no_equilibrium && !reached, Status::collapsed, [&] { return all_left(); }},
+      {stops && !loose.empty(), Status::collapsed, [&] { return stopped_by(loose); }},
+      {last && now.ramp, at_rest ? Status::equilibrium : Status::completed,
+       [&] { return end_of_ramp(at_rest) + loose; }},
+      {last && at_rest, Status::equilibrium, [&] { return equilibrium_of_stage() + loose; }},
+      {last, Status::completed,
+       [&] { return "the run has reached its duration, " + motion_at_end(); }}};
+  for (const auto& ending : endings) {
+    if (!ending.applies) continue;
+    end(ending.status, ending.message());
     return false;
   }
   return true;
+}
+
+std::string Driver::all_left() const {
+  return fmt::format(
+      "{} does not reach equilibrium: each block slides or falls, and has left its place: {}",
+      stage_label(sim_.scene->model, stage_), still_moving(sim_, ends_.back().balance));
 }
 
 bool Driver::end_without_equilibrium(bool last) {

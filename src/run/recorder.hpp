@@ -41,6 +41,8 @@ class Recorder {
   Trouble row(const Simulation& sim, const Instant& at, const std::vector<MonitorPoint>& monitors,
               const std::vector<ConvergenceLine>& lines, const EnergyBalance& energy,
               double unbalanced);
+  /// Waits until the last frame is written.
+  Trouble finish_frame() { return frames_ ? frames_->finish() : Trouble{}; }
   Trouble frame(const Simulation& sim, Picture picture);
   /// stages.csv, with the stages so far.
   Trouble stages(const std::string& csv);

@@ -6,10 +6,10 @@
 #include "base/parallel.hpp"
 #include "contacts/activity.hpp"
 #include "contacts/evaluate_face.hpp"
-#include "contacts/face_energy.hpp"
 #include "contacts/face_reading.hpp"
 #include "contacts/tile_columns.hpp"
 #include "contacts/tile_rows.hpp"
+#include "contacts/tile_sweep.hpp"
 #include "step/simulation.hpp"
 
 namespace edda {
@@ -115,23 +115,19 @@ std::vector<double> normal_forces_now(const Simulation& sim) {
 FaceMeasures measure_faces(const Simulation& sim) {
   const FaceSet& c = sim.motion.contacts;
   const FaceTiles& t = sim.motion.tiled.tiles;
-  const BlockSet& b = sim.scene->blocks;
   FaceMeasures all{std::vector<double>(c.size(), 0.0), std::vector<double>(c.size(), 0.0),
                    std::vector<FaceWork>(c.size())};
-  const auto measure = [&](std::size_t k) {
+  std::vector<char> no_scratch;
+  parallel_tasks(t.tiles.size(), 20 * c.size(), no_scratch, [&](std::size_t tile, char&) {
+    measure_tile(t, c, sim.scene->blocks, sim.motion.pose, tile, all.energy, all.normal);
+  });
+  const auto add = [&](std::size_t k) {
     all.work[k] = work_now(sim, k);
-    const Id place = t.place[k][0];
-    if (place == no_id) return;
-    const auto old = get<FaceMemoryColumns<double>>(t, 1 - t.now, place);
-    const SpringsOfFace springs{
-        old.spring, {old.slip_a, old.slip_b}, t.remembers(lane_bits::stored, k)};
-    const bool closed = is_closed_now(sim, k);
-    if (!closed && !c.carries_tension(k) && !springs.have_slip()) return;
-    const Face face = face_now(sim, k);
-    if (closed) all.normal[k] = normal_of(sim, face, k);
-    all.energy[k] = face_energy(c, b, sim.motion.pose, springs, face, k);
+    if (!t.dashpots || !is_closed_now(sim, k)) return;
+    const FaceEnds dashpots = dashpots_across(sim, k);
+    all.normal[k] = all.normal[k] + dashpots.a + dashpots.b;
   };
-  parallel_for(c.size(), measure, cost_of_a_face);
+  parallel_for(c.size(), add, 5);
   return all;
 }
 

@@ -1,6 +1,8 @@
 // Blocks that a test moves in a prescribed way, step by step, and the response of their faces.
 #pragma once
 
+#include <numeric>
+
 #include "attachments/drawn_blocks.hpp"
 #include "blocks/pose.hpp"
 #include "contacts/face_bonds.hpp"
@@ -10,6 +12,7 @@
 #include "contacts/joint_laws.hpp"
 #include "contacts/tile_decisions.hpp"
 #include "contacts/tile_renewal.hpp"
+#include "contacts/tile_sweep.hpp"
 #include "contacts/tile_trials.hpp"
 #include "contacts/tiled_faces.hpp"
 #include "forces/nodal_forces.hpp"
@@ -119,14 +122,10 @@ struct MovedBlocks : DrawnBlocks {
   FaceFields before(std::size_t k) const { return remembered(tiled.tiles, k); }
   /// Energy that faces store, J.
   double stored() const {
-    double sum = 0.0;
-    for (std::size_t k = 0; k < faces.size(); ++k) {
-      const FaceFields m = before(k);
-      const SpringsOfFace springs{m.spring, {m.slip_a, m.slip_b}, now(k).energy > 0.0};
-      sum +=
-          face_energy(faces, blocks, pose, springs, face_at(faces, blocks, pose.x, pose.y, k), k);
-    }
-    return sum;
+    std::vector<double> energy(faces.size(), 0.0), normal(faces.size(), 0.0);
+    for (std::size_t tile = 0; tile < tiled.tiles.tiles.size(); ++tile)
+      measure_tile(tiled.tiles, faces, blocks, pose, tile, energy, normal);
+    return std::accumulate(energy.begin(), energy.end(), 0.0);
   }
   static double sum(const RowColumn& column) {
     double all = 0.0;
