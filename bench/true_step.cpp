@@ -66,19 +66,20 @@ void hold_contacts(FaceSet& c, const FaceStates& states, Carrying which) {
   for (const FaceFields& m : states.now) most = std::max(most, m.energy);
   for (std::size_t k = 0; k < c.size(); ++k) {
     const FaceFields& m = states.now[k];
-    const bool closed = m.energy > 0.0 || (c.bonded[k] > 0.0 && m.gate > 0.0);
-    const bool carries = closed && (c.carries_tension[k] > 0.0 || m.energy > nothing * most);
-    const bool aside = c.acts[k] == 0.0 || m.gate == 0.0;
+    const bool closed = m.energy > 0.0 || (c.bonded(k) && m.gate > 0.0);
+    const bool carries = closed && (c.carries_tension(k) || m.energy > nothing * most);
+    const bool aside = !c.acts(k) || m.gate == 0.0;
     if (!carries && (which == Carrying::now || aside)) {
       c.stiffness[k] = c.shear_stiffness[k] = 0.0;
       continue;
     }
     const double before_a = c.locked_closure_a[k], before_b = c.locked_closure_b[k];
-    if (which == Carrying::may && c.carries_tension[k] == 0.0) let_touch(c, m, k);
+    if (which == Carrying::may && !c.carries_tension(k)) let_touch(c, m, k);
     const double da = m.closure_a + c.locked_closure_a[k] - before_a;
     const double db = m.closure_b + c.locked_closure_b[k] - before_b;
-    if (std::min(da, db) > 0.0) c.carries_tension[k] = 1.0;
-    c.bonded[k] = c.glued[k] = 1.0;
+    if (std::min(da, db) > 0.0) c.set(FaceFlag::tension, k);
+    c.set_bond(BondState::intact, k);
+    c.set(FaceFlag::glued, k);
     c.tension[k] = enough;
   }
 }
