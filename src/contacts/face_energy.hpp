@@ -40,7 +40,8 @@ EDDA_INLINE double face_energy(double normal, const SpringsOfFace& old, FaceEnds
   const bool slips = (old.spring > 0.0) & ((had.a != 0.0) | (had.b != 0.0));
   const double shear =
       slips ? old.spring * (had.a * (had.a + moved.a) + had.b * (had.b + moved.b)) : 0.0;
-  return old.stores | carries_tension | slips ? normal + 0.5 * shear : 0.0;
+  const bool counts = old.stores | carries_tension | slips;
+  return counts ? normal + 0.5 * shear : 0.0;
 }
 
 /// stored_between() of face k, J.
