@@ -77,7 +77,7 @@ void hold_contacts(FaceSet& c, const FaceStates& states, Carrying which) {
     if (which == Carrying::may && !c.carries_tension(k)) let_touch(c, m, k);
     const double da = m.closure_a + c.locked_closure_a[k] - before_a;
     const double db = m.closure_b + c.locked_closure_b[k] - before_b;
-    if (std::min(da, db) > 0.0) c.set(FaceFlag::tension, k);
+    if (std::min(da, db) > 0.0) c.set(FaceFlag::carries_tension, k);
     c.set_bond(BondState::intact, k);
     c.set(FaceFlag::glued, k);
     c.tension[k] = enough;

@@ -72,7 +72,7 @@ void bond_faces(FaceSet& c, FaceStates& states, const BlockSet& b, const Pose& p
     if (other) {
       c.law[k] = drawn;
       set_residual_strength(c, laws, k);
-      c.set(FaceFlag::tension, k, false);
+      c.set(FaceFlag::carries_tension, k, false);
       changes = true;
     }
     if (!has_bond) continue;
@@ -82,9 +82,9 @@ void bond_faces(FaceSet& c, FaceStates& states, const BlockSet& b, const Pose& p
         std::min(face.closure.a, face.closure.b) >= -touching_gap * smaller_size(c, b, k);
     c.set(FaceFlag::acts, k);
     c.set(FaceFlag::leans, k);
-    set_bond(c, laws, weakens ? BondState::residual : BondState::intact, 0.0, k);
+    set_bond(c, laws, weakens ? BondState::unbonded : BondState::intact, 0.0, k);
     c.set(FaceFlag::glued, k, law.glued);
-    c.set(FaceFlag::tension, k, flush && (law.glued || law.peak_tension > 0.0));
+    c.set(FaceFlag::carries_tension, k, flush && (law.glued || law.peak_tension > 0.0));
   }
   if (changes) complete_faces(c, b, laws);
 }
@@ -103,11 +103,11 @@ void break_bond(FaceSet& c, const BlockSet& b, const LawTable& laws, const FaceF
   if (breaks) set_residual_strength(c, laws, k);
   if (cracks) {
     set_bond(c, laws, BondState::cracked, c.slip_so_far[k], k);
-    c.set(FaceFlag::tension, k, laws.rows[c.law[k]].residual_tension > 0.0);
+    c.set(FaceFlag::carries_tension, k, laws.rows[c.law[k]].residual_tension > 0.0);
   }
   c.mark_failure(k, breaks);
   // The face releases altogether if its tension exceeds the residual tensile strength, too.
-  if (failure_now(c, b, now, k).torn) c.set(FaceFlag::tension, k, false);
+  if (failure_now(c, b, now, k).torn) c.set(FaceFlag::carries_tension, k, false);
   c.set(FaceFlag::opened, k);
 }
 

@@ -66,13 +66,13 @@ inline constexpr auto& face_properties = face_property_list<RowColumn>;
 
 /// What is decided of a face, a bit each.
 enum class FaceFlag : std::uint16_t {
-  // While the face stores no energy; valid as long as it exists.
+  // Decided while the face stores no energy; valid as long as it exists.
   acts = 1u << 0,   ///< else its edges are far sides of blocks, which do not meet
   leans = 1u << 1,  ///< no third block lies beside the corner that leans
   // Its bond (BondState), and whether it transmits tension.
   intact = 1u << 2,
   cracked = 1u << 3,
-  tension = 1u << 4,
+  carries_tension = 1u << 4,
   glued = 1u << 5,           ///< by its law: it never opens or slides
   glued_by_stage = 1u << 6,  ///< for the time of a stage, whatever its bond
   // In the current step.
@@ -83,10 +83,13 @@ enum class FaceFlag : std::uint16_t {
   slipped = 1u << 10
 };
 
+inline constexpr std::uint16_t all_face_flags = (1u << 11) - 1;
+
 /// Bond of a face, which as a whole has its peak strength until it breaks. A face that tension has
 /// cracked from one end while the other is pressed keeps the peak strength in shear, and has the
-/// residual one in tension. After that, or without a bond, it has the residual one.
-enum class BondState : std::uint8_t { residual, cracked, intact };
+/// residual one in tension. A face without a bond has what its law gives it at its slip: the
+/// residual strength, or that of slip weakening.
+enum class BondState : std::uint8_t { unbonded, cracked, intact };
 
 /// What a law gives all its faces.
 struct FacesOfLaw {
@@ -117,7 +120,7 @@ struct FaceSet : RowTable<FaceProperties<RowColumn>, face_property_list<RowColum
   BondState bond(std::size_t k) const {
     return is(FaceFlag::intact, k)    ? BondState::intact
            : is(FaceFlag::cracked, k) ? BondState::cracked
-                                      : BondState::residual;
+                                      : BondState::unbonded;
   }
   void set_bond(BondState to, std::size_t k) {
     set(FaceFlag::intact, k, to == BondState::intact);
@@ -129,11 +132,11 @@ struct FaceSet : RowTable<FaceProperties<RowColumn>, face_property_list<RowColum
   }
   /// Whether it breaks as a whole instead of sliding end by end.
   bool bonded(std::size_t k) const {
-    return bond(k) != BondState::residual || is(FaceFlag::glued_by_stage, k);
+    return bond(k) != BondState::unbonded || is(FaceFlag::glued_by_stage, k);
   }
   /// Whether it transmits tension.
   bool carries_tension(std::size_t k) const {
-    return is(FaceFlag::tension, k) || is(FaceFlag::glued_by_stage, k);
+    return is(FaceFlag::carries_tension, k) || is(FaceFlag::glued_by_stage, k);
   }
 
   std::vector<FacesOfLaw> of_laws;  ///< [rows of the LawTable]

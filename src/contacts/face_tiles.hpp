@@ -44,7 +44,7 @@ template <class C>
 struct StrengthConstants {
   C ends, friction, cohesion, locked_closure_a, locked_closure_b, carries_tension, bonded;
   C zeta, shear_zeta, rebound;
-  C tension, glued;  ///< as in FaceProperties
+  C tension, glued;  ///< as in FaceSet
 };
 inline constexpr std::size_t strength_columns = sizeof(StrengthConstants<double>) / sizeof(double);
 

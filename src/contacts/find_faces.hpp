@@ -11,9 +11,10 @@
 namespace edda {
 
 /// Lists all pairs of edges of two blocks that may act before any vertex has moved by half of
-/// reach.apart, sorted by `edge`, then by `facing`, and carries over the decided columns of those
-/// that were in the old list. near: what this search leaves to the next one; carry: [nf] 1: the
-/// face stores energy. Returns for each face of the new list its row in the old one, or no_id.
+/// reach.apart, sorted by `edge`, then by `facing`, and carries over the kept columns and the flags
+/// of those that were in the old list. near: what this search leaves to the next one; carry: [nf]
+/// 1: the face stores energy. Returns for each face of the new list its row in the old one, or
+/// no_id.
 std::vector<Id> find_faces(FaceSet& faces, const BlockSet& blocks, const State& state,
                            const Pose& pose, const LawTable& laws, const Reach& reach,
                            NearEdges& near, const std::vector<std::uint8_t>& carry);

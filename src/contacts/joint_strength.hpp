@@ -23,7 +23,7 @@ EDDA_INLINE bool is_cut(FaceEnds trial, FaceEnds slip) {
   return (trial.a != slip.a) | (trial.b != slip.b);
 }
 
-/// Strength of a bonded face. Members as in FaceProperties.
+/// Strength of a bonded face. Members as in FaceSet.
 struct BondStrength {
   bool bonded, carries_tension, glued;
   double friction, cohesion, tension;

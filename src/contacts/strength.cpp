@@ -35,7 +35,7 @@ StrengthInForce rough(const Law& law, double slip, double length, double sigma, 
 }
 
 StrengthInForce coulomb(const Law& law, BondState bond, double slip) {
-  const bool whole = bond != BondState::residual;
+  const bool whole = bond != BondState::unbonded;
   return {whole ? law.peak_friction : law.residual_friction,
           whole ? law.peak_cohesion : law.residual_cohesion,
           bond == BondState::intact ? law.peak_tension : law.residual_tension,
@@ -82,10 +82,13 @@ void put_in_force(FaceSet& c, const StrengthInForce& s, std::size_t k) {
 void put_in_force(FaceSet& c, const FaceStates& states, const LawTable& laws) {
   for (std::size_t k = 0; k < c.size(); ++k) {
     const FaceFields& m = states.before[k];
-    put_in_force(c,
-                 strength_of(laws, c.law[k], c.bond(k),
-                             {c.slip_so_far[k], m.length, m.normal_a + m.normal_b}),
-                 k);
+    StrengthInputs in{.slip = c.slip_so_far[k]};
+    // Of faces that stored nothing length and forces may be those of an earlier step.
+    if (m.energy > 0.0) {
+      in.length = m.length;
+      in.normal = m.normal_a + m.normal_b;
+    }
+    put_in_force(c, strength_of(laws, c.law[k], c.bond(k), in), k);
   }
 }
 
@@ -97,8 +100,8 @@ void set_bond(FaceSet& c, const LawTable& laws, BondState bond, double slip, std
 
 void set_residual_strength(FaceSet& c, const LawTable& laws, std::size_t k) {
   const Law& law = laws.rows[c.law[k]];
-  set_bond(c, laws, BondState::residual, first_slip(law), k);
-  c.set(FaceFlag::tension, k, law.residual_tension > 0.0);
+  set_bond(c, laws, BondState::unbonded, first_slip(law), k);
+  c.set(FaceFlag::carries_tension, k, law.residual_tension > 0.0);
 }
 
 double first_slip(const Law& law) {

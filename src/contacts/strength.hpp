@@ -45,7 +45,7 @@ void put_in_force(FaceSet& faces, const StrengthInForce& strength, std::size_t k
 void put_in_force(FaceSet& faces, const FaceStates& states, const LawTable& laws);
 /// The bond of face k, with its strength at this slip where it carries nothing.
 void set_bond(FaceSet& faces, const LawTable& laws, BondState bond, double slip, std::size_t k);
-/// Gives face k, which has no bond, the residual strength of its law.
+/// Takes the bond of face k, which then has the residual strength of its law, in tension too.
 void set_residual_strength(FaceSet& faces, const LawTable& laws, std::size_t k);
 
 /// Initial value of a face's accumulated slip: 0, or for slip weakening infinite (residual

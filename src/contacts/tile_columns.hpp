@@ -82,7 +82,7 @@ struct KeptField {
 };
 /// Those of a table; but for the corners, which are no part of a state, all of its columns.
 template <class Fields>
-inline constexpr std::array<KeptField<Fields>, 0> kept_fields{};
+inline constexpr std::nullptr_t kept_fields = nullptr;
 template <>
 inline constexpr std::array kept_fields<FaceMemoryColumns<double>> = [] {
   using F = FaceFields;

@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <chrono>
 #include <cmath>
 #include <memory>
+#include <new>
 #include <numeric>
 #include <utility>
 
@@ -212,41 +214,66 @@ void FrameSeries::go_on_after(const std::vector<double>& times) {
   for (const double t : times) enter(t);
 }
 
-void FrameSeries::enter(double time) {
-  const std::string number = fmt::format("{:06}", blocks_.size());
-  blocks_.push_back({time, "frames/blocks_" + number + ".vtu"});
-  contacts_.push_back({time, contacts_beside(blocks_.back().file)});
+namespace {
+
+std::string blocks_file(std::size_t frame) {
+  return fmt::format("frames/blocks_{:06}.vtu", frame);
 }
 
-Trouble FrameSeries::finish() {
-  Trouble trouble = writes_.valid() ? writes_.get() : Trouble{};
-  if (trouble) {
-    blocks_.pop_back();
-    contacts_.pop_back();
+Trouble write_frame(const std::string& folder, std::size_t frame, const BlockCells& cells,
+                    const Picture& picture) {
+  const std::string blocks = folder + "/" + blocks_file(frame);
+  try {
+    const Trouble trouble = write_vtu(blocks, block_source(cells, picture));
+    return trouble ? trouble : write_vtu(contacts_beside(blocks), contact_source(picture));
+  } catch (const std::bad_alloc&) {
+    Fault fault;
+    fault.where.file = blocks;
+    fault.problem = "the memory does not suffice to write a frame";
+    fault.remedy = "write fewer frames at a time on this machine, or a smaller model";
+    return fault;
   }
-  return trouble;
+}
+
+}  // namespace
+
+void FrameSeries::enter(double time) {
+  blocks_.push_back({time, blocks_file(blocks_.size())});
+  contacts_.push_back({time, contacts_beside(blocks_.back().file)});
 }
 
 Trouble FrameSeries::add(Picture picture) {
   if (auto t = finish()) return t;
-  constexpr std::size_t few = 1000;
-  if (blocks_.size() > in_series_ + in_series_ / few) {
-    if (auto t = write_series()) return t;
-  }
-  enter(picture.time);
-  const auto write = [cells = &cells_, picture = std::move(picture),
-                      blocks = folder_ + "/" + blocks_.back().file,
-                      contacts = folder_ + "/" + contacts_.back().file] {
-    const Trouble trouble = write_vtu(blocks, block_source(*cells, picture));
-    return trouble ? trouble : write_vtu(contacts, contact_source(picture));
-  };
-  writes_ = std::async(std::launch::async, write);
+  time_ = picture.time;
+  // Where no thread can be made it is written in finish().
+  writes_ = std::async(std::launch::async | std::launch::deferred,
+                       [this, frame = blocks_.size(), picture = std::move(picture)] {
+                         return write_frame(folder_, frame, cells_, picture);
+                       });
   return {};
+}
+
+Trouble FrameSeries::collect() {
+  const bool written =
+      writes_.valid() && writes_.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
+  return written ? finish() : trouble_;
+}
+
+Trouble FrameSeries::finish() {
+  if (!writes_.valid()) return trouble_;
+  trouble_ = writes_.get();
+  if (trouble_) return trouble_;
+  enter(time_);
+  constexpr std::size_t few = 1000;
+  return blocks_.size() > in_series_ + in_series_ / few ? write_lists() : Trouble{};
 }
 
 Trouble FrameSeries::write_series() {
   if (auto t = finish()) return t;
-  if (in_series_ == blocks_.size()) return {};
+  return in_series_ == blocks_.size() ? Trouble{} : write_lists();
+}
+
+Trouble FrameSeries::write_lists() {
   if (auto t = write_pvd(folder_ + "/blocks.pvd", blocks_)) return t;
   if (auto t = write_pvd(folder_ + "/contacts.pvd", contacts_)) return t;
   in_series_ = blocks_.size();

@@ -42,13 +42,16 @@ class FrameSeries {
   FrameSeries(std::string folder, const BlockSet& blocks);
   FrameSeries(const FrameSeries&) = delete;
   FrameSeries& operator=(const FrameSeries&) = delete;
-  /// Takes the frame, which a thread of its own writes; returns the trouble of the one before. The
-  /// time series names it as soon as it is written while there are few; later they grow by a
-  /// thousandth at a time, so that many frames do not take the square of their number to write.
+  /// Takes the frame, which a thread of its own writes. Returns the trouble of a frame before,
+  /// after which none is written any more, as all of these.
   Trouble add(Picture picture);
-  /// Waits for the last frame.
+  /// The time series name the last frame if it has been written by now. They do so at once while
+  /// there are few; later they grow by a thousandth at a time, so that many frames do not take the
+  /// square of their number to write.
+  Trouble collect();
+  /// The same, once it has been written.
   Trouble finish();
-  /// The same, and brings the time series up to it.
+  /// Brings the time series up to it.
   Trouble write_series();
   /// Times of the frames so far, s; to continue after existing frames.
   std::vector<double> times() const;
@@ -56,11 +59,14 @@ class FrameSeries {
 
  private:
   void enter(double time);
+  Trouble write_lists();
   std::string folder_;
   BlockCells cells_;
-  std::vector<SeriesEntry> blocks_, contacts_;
-  std::size_t in_series_ = 0;    ///< frames that the written series name
-  std::future<Trouble> writes_;  ///< the last one; destroyed first, which waits for it
+  std::vector<SeriesEntry> blocks_, contacts_;  ///< frames that have been written
+  std::size_t in_series_ = 0;                   ///< how many of them the time series name
+  Trouble trouble_;
+  double time_ = 0.0;            ///< s, of the frame that is being written
+  std::future<Trouble> writes_;  ///< destroyed first, which waits for it
 };
 
 }  // namespace edda

@@ -210,8 +210,8 @@ bool read_array(std::string_view section, std::string_view tag, std::string_view
   if (section == "Points") return values_of(tag, bytes, g.points);
   if (section == "FieldData") {
     std::vector<double> time;
-    if (!values_of(tag, bytes, time)) return false;
-    if (!time.empty()) g.time = time[0];
+    if (!values_of(tag, bytes, time) || time.size() != 1) return false;
+    g.time = time[0];
     return true;
   }
   const std::string name = attribute(tag, "Name");
@@ -367,8 +367,11 @@ Result<Grid> read_vtu(const std::string& path) {
   const std::size_t split = text.find(mark);
   if (split == std::string_view::npos) return bad_file(path, "is no frame of a run");
   const std::string_view xml = text.substr(0, split), bytes = text.substr(split + mark.size());
-  if (xml.find("vtkZLibDataCompressor") == std::string_view::npos)
-    return bad_file(path, "is no frame of this version of edda");
+  if (xml.find("vtkZLibDataCompressor") == std::string_view::npos) {
+    Fault fault = bad_file(path, "is of an earlier version of edda");
+    fault.remedy = "run the model again";
+    return fault;
+  }
   Grid grid;
   std::string section;
   for (std::size_t at = xml.find('<'); at != std::string_view::npos; at = xml.find('<', at + 1)) {

@@ -1,4 +1,4 @@
-// Grids as ParaView files (.vtu: XML with the arrays appended as raw bytes), time series (.pvd),
+// Grids as ParaView files (.vtu: XML with the arrays appended, deflated), time series (.pvd),
 // and back.
 #pragma once
 

@@ -162,6 +162,7 @@ void Driver::within_memory(Part part) {
 }
 
 void Driver::pause() {
+  if (ended_by(recorder_.finish_frame())) return;
   wall_before_ += since(started_);
   paused_at_ = Clock::now();
   paused_ = true;
@@ -286,11 +287,12 @@ bool Driver::record(const Event& event) {
   }
   if (fine && event.frame && recorder_.writes()) {
     last_frame_ = sim_.motion.state.time;
-    // One picture at a time is in memory.
     fine = !ended_by(recorder_.finish_frame());
-    Picture picture = picture_of(sim_, instant);
-    forget_instant();
-    fine = fine && !ended_by(recorder_.frame(sim_, std::move(picture)));
+    if (fine) {
+      Picture picture = picture_of(sim_, instant);
+      forget_instant();
+      fine = !ended_by(recorder_.frame(sim_, std::move(picture)));
+    }
   }
   outcome_.wall.output += since(start);
   if (!fine || over_ || !event.row) return fine;

@@ -114,8 +114,9 @@ class Driver {
   /// When the equilibrium was reached.
   std::string equilibrium_of_stage() const;
   std::string not_in_equilibrium() const;
-  /// Message where otherwise = "stop" ends the run.
+  /// Message where each block has left its place.
   std::string all_left() const;
+  /// Message where otherwise = "stop" ends the run.
   std::string stopped_by(const std::string& loose) const;
   /// "at rest", or what still moves, and how fast.
   std::string motion_at_end() const;

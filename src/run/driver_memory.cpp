@@ -311,6 +311,7 @@ void Driver::save_checkpoint() {
 }
 
 bool Driver::save_stage_joints() {
+  if (ended_by(recorder_.finish_frame())) return false;
   const Picture picture = picture_of(sim_, look());
   forget_instant();
   return !ended_by(recorder_.stage_joints(stage_, picture));

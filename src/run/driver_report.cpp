@@ -38,6 +38,7 @@ void Driver::write_end() {
   if (const Trouble trouble = disk_trouble_ ? Trouble{} : write_curve()) ended_by(trouble);
   if (begun && recorder_.writes()) {
     count_revolutions(sim_, angle_);
+    recorder_.finish_frame();  // its trouble comes back with the tables
     const Picture picture = picture_of(sim_, look());
     forget_instant();
     const Trouble trouble = recorder_.tables(picture);

@@ -120,6 +120,8 @@ void examine_faces(Examiner& j, const FaceSet& c, const FaceStates& states, cons
     const bool sorted = k == 0 || pair_of(k - 1) < pair_of(k);
     if (!sorted || e >= f || b.vertex_block[e] == b.vertex_block[f])
       j.refuse("faces do not belong together");
+    const bool two_bonds = c.is(FaceFlag::intact, k) && c.is(FaceFlag::cracked, k);
+    if ((c.flags[k] & ~all_face_flags) != 0 || two_bonds) j.refuse("faces have no such flags");
   }
   const auto finite = [](const std::vector<FaceFields>& all) {
     return std::all_of(all.begin(), all.end(), [](const FaceFields& m) { return is_finite(m); });

@@ -104,6 +104,7 @@ Trouble Recorder::row(const Simulation& sim, const Instant& at,
                       const std::vector<ConvergenceLine>& lines, const EnergyBalance& l,
                       double unbalanced) {
   if (!writes()) return {};
+  if (auto t = frames_ ? frames_->collect() : Trouble{}) return t;
   Csv csv;
   csv.add(sim.motion.state.time);
   for (const MonitorPoint& m : monitors) {
@@ -150,18 +151,14 @@ Trouble Recorder::frame(const Simulation& sim, Picture picture) {
 
 Trouble Recorder::tables(const Picture& picture) {
   if (!writes()) return {};
-  Trouble history = history_.close();
-  for (RowFile* file : {&reactions_, &bolts_}) {
-    const Trouble t = file->close();
-    if (!history) history = t;
-  }
-  if (frames_) {
-    if (auto t = frames_->write_series()) return t;
-  }
+  Trouble first = history_.close();
+  const auto also = [&](const Trouble& t) { first = first ? first : t; };
+  for (RowFile* file : {&reactions_, &bolts_}) also(file->close());
+  if (frames_) also(frames_->write_series());
   if (auto t = write_blocks_csv(path("blocks.csv"), picture.blocks)) return t;
   if (auto t = write_joints_csv(path("joints.csv"), picture.contacts)) return t;
   if (auto t = write_columns_csv(folder_, owners_)) return t;
-  return history;
+  return first;
 }
 
 Trouble Recorder::summary(const Simulation& sim, const Outcome& outcome,

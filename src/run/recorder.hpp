@@ -41,7 +41,7 @@ class Recorder {
   Trouble row(const Simulation& sim, const Instant& at, const std::vector<MonitorPoint>& monitors,
               const std::vector<ConvergenceLine>& lines, const EnergyBalance& energy,
               double unbalanced);
-  /// Waits until the last frame is written.
+  /// Waits until the last frame is written, so that one picture at a time is in memory.
   Trouble finish_frame() { return frames_ ? frames_->finish() : Trouble{}; }
   Trouble frame(const Simulation& sim, Picture picture);
   /// stages.csv, with the stages so far.

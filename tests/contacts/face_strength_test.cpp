@@ -346,6 +346,28 @@ TEST(StrengthFactors, DivideAllStrength) {
   EXPECT_EQ(half.residual_tension, 0.5 * whole.residual_tension);
 }
 
+/// A face that has carried and is open has no normal stress: its friction is the residual one,
+/// whatever it was when it last carried.
+TEST(StrengthFactors, AnOpenFaceOfBartonBandisHasItsResidualFriction) {
+  JointLaw joint;
+  joint.name = "j";
+  joint.type = LawType::barton_bandis;
+  joint.jrc = 8.0;
+  joint.jcs = 50e6;
+  joint.residual_angle = 28.0;
+  joint.residual.friction_angle = joint.peak.friction_angle = 28.0;
+  MovedBlocks m = square_on_base(joint, thickness);
+  m.start();
+  for (const double depth : {1e-4, 1e-4, 1e-4}) m.go(1, {{0.0, -depth}});
+  const std::size_t k = m.main_face();
+  EXPECT_GT(m.faces.friction[k], tangent(30.0));
+  for (int n = 0; n < 3; ++n) m.go(1, {{0.0, 1e-3}});
+  m.change([&](FaceSet& faces, const FaceStates& states) {
+    put_in_force(faces, states, divided_laws(m.model, {2.0}));
+  });
+  EXPECT_NEAR(m.faces.friction[k], tangent(28.0) / 2.0, 1e-12);
+}
+
 TEST(StrengthFactors, ApplyToTheStrengthInForce) {
   MovedBlocks m = bonded_square();
   const std::size_t k = bonded_face(m);

@@ -219,7 +219,7 @@ TEST(EnergyBalance, KeepsTheDissipationOfRemovedFaces) {
   }
   change_faces(sim, [](FaceSet& c, FaceStates& states) {
     for (FaceFields& m : states.now) m.energy = 0.0;
-    for (std::size_t k = 0; k < c.size(); ++k) c.set_bond(BondState::residual, k);
+    for (std::size_t k = 0; k < c.size(); ++k) c.set_bond(BondState::unbonded, k);
   });
   search(sim, {0.01});
   ASSERT_EQ(faces.size(), 0u);

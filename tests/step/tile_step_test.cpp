@@ -9,6 +9,8 @@
 #include <random>
 #include <string>
 
+#include "contacts/evaluate_face.hpp"
+#include "contacts/face_energy.hpp"
 #include "contacts/tile_rows.hpp"
 #include "run/prepared.hpp"
 #include "step/changes.hpp"
@@ -29,6 +31,28 @@ void expect_field(const FaceField& field, const FaceFields& is, const FaceFields
   EXPECT_EQ(is.*field.value, expected.*field.value) << field.name << " of face " << k;
 }
 
+/// What a row of results needs of all faces is what each of them says.
+void expect_measures(const Simulation& sim) {
+  const FaceSet& c = sim.motion.contacts;
+  const FaceTiles& t = sim.motion.tiled.tiles;
+  const BlockSet& b = sim.scene->blocks;
+  const Pose& pose = sim.motion.pose;
+  const FaceMeasures measures = measure_faces(sim);
+  for (std::size_t k = 0; k < c.size(); ++k) {
+    if (t.place[k][0] == no_id) continue;
+    const FaceFields before = remembered(t, k);
+    const FaceEnds moved =
+        slip_of(c, face_at(c, b, pose.x, pose.y, k), face_points(c, pose.x, pose.y, k),
+                face_points(c, pose.x1, pose.y1, k), k);
+    const SpringsOfFace springs{
+        before.spring, {before.slip_a, before.slip_b}, t.remembers(lane_bits::stored, k)};
+    EXPECT_EQ(measures.energy[k],
+              face_energy(normal_energy(c, b, pose, k), springs, moved, c.carries_tension(k)))
+        << k;
+    EXPECT_EQ(measures.normal[k], normal_force_now(sim, k)) << k;
+  }
+}
+
 /// The state of every face follows from its state at n and the positions alone, whatever lies in
 /// tiles, sleeps, or has been corrected; nothing more is to be decided of it; and blocks carry the
 /// sum of its forces.
@@ -36,6 +60,7 @@ void expect_faces_follow(const Simulation& sim) {
   const Motion& motion = sim.motion;
   const FaceTiles& tiles = motion.tiled.tiles;
   const BlockSet& b = sim.scene->blocks;
+  expect_measures(sim);
   FaceSet faces = motion.contacts;
   for (std::size_t k = 0; k < faces.size(); ++k) {
     if (tiles.place[k][0] == no_id) continue;

@@ -51,7 +51,7 @@ TEST(Certificate, LeavesOutWhatHasComeLoose) {
 /// All joints are pressed, and their bonds broken.
 void close_all(Simulation& sim) {
   change_faces(sim, [](FaceSet& faces, FaceStates& states) {
-    for (std::size_t k = 0; k < faces.size(); ++k) faces.set_bond(BondState::residual, k);
+    for (std::size_t k = 0; k < faces.size(); ++k) faces.set_bond(BondState::unbonded, k);
     for (FaceFields& m : states.now) m.energy = 1.0;
   });
 }

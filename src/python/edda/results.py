@@ -350,6 +350,8 @@ def _read_vtu(path: pathlib.Path) -> dict[str, dict[str, NDArray[Any]]]:
     head = re.search(rb"<AppendedData[^>]*>\s*_", content)
     if head is None:
         raise ValueError(f"{path}: is no frame that edda has written")
+    if b"vtkZLibDataCompressor" not in content[: head.start()]:
+        raise ValueError(f"{path}: is of an earlier version of edda: run the model again")
     xml = content[: head.start()].rsplit(b"</UnstructuredGrid>", 1)[0] + b"</UnstructuredGrid></VTKFile>"
     sections: dict[str, dict[str, NDArray[Any]]] = {}
     for section in ElementTree.fromstring(xml).iter():
