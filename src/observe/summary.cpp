@@ -74,10 +74,9 @@ void add_open_close(Json& j, const Simulation& sim) {
 }
 
 void add_energy(Json& j, const EnergyBalance& l) {
-  j.key("energy").open_object().pair("kinetic", l.kinetic).pair("strain", l.strain);
-  j.pair("contact", l.contact).pair("gravity", l.gravity).pair("friction", l.friction);
-  j.pair("damping", l.damping).pair("fracture", l.fracture).pair("external", l.external);
-  j.pair("step_change", l.step_change).pair("transfer", l.transfer).pair("drift", l.error).close();
+  j.key("energy").open_object();
+  for (const EnergyTerm& term : energy_terms) j.pair(term.name, l.*term.value);
+  j.close();
 }
 
 void add_overlap(Json& j, const Overlap& o) {

@@ -145,19 +145,7 @@ std::string difference(std::string_view now, std::string_view then) {
 
 template <class Archive>
 void list_energy_balance(Archive& a, const std::string& of, EnergyBalance& l) {
-  for (const auto& [name, value] : {std::pair{"kinetic", &l.kinetic},
-                                    {"strain", &l.strain},
-                                    {"contact", &l.contact},
-                                    {"gravity", &l.gravity},
-                                    {"friction", &l.friction},
-                                    {"damping", &l.damping},
-                                    {"fracture", &l.fracture},
-                                    {"external", &l.external},
-                                    {"step_change", &l.step_change},
-                                    {"transfer", &l.transfer},
-                                    {"drift", &l.error}}) {
-    a(of + name, *value);
-  }
+  for (const EnergyTerm& term : energy_terms) a(of + term.name, l.*term.value);
 }
 
 Fault refused(const std::string& folder, std::string problem, std::string remedy) {

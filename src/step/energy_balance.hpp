@@ -3,6 +3,8 @@
 // rounding, except for what rotation and sliding along an edge create.
 #pragma once
 
+#include <iterator>
+
 #include "attachments/boundary_springs.hpp"
 #include "blocks/pose.hpp"
 #include "blocks/state.hpp"
@@ -31,6 +33,25 @@ struct EnergyBalance {
   /// Reference for the error.
   double scale() const { return kinetic + strain + contact + friction + damping + fracture; }
 };
+
+/// Its terms, by the names that files give them.
+struct EnergyTerm {
+  const char* name;
+  double EnergyBalance::*value;
+};
+inline constexpr EnergyTerm energy_terms[] = {{"kinetic", &EnergyBalance::kinetic},
+                                              {"strain", &EnergyBalance::strain},
+                                              {"contact", &EnergyBalance::contact},
+                                              {"gravity", &EnergyBalance::gravity},
+                                              {"friction", &EnergyBalance::friction},
+                                              {"damping", &EnergyBalance::damping},
+                                              {"fracture", &EnergyBalance::fracture},
+                                              {"external", &EnergyBalance::external},
+                                              {"step_change", &EnergyBalance::step_change},
+                                              {"transfer", &EnergyBalance::transfer},
+                                              {"drift", &EnergyBalance::error}};
+static_assert(sizeof(EnergyBalance) == std::size(energy_terms) * sizeof(double),
+              "a term is not listed");
 
 /// Energy that rounding alone may store in springs and rock and release over a long run, J: all
 /// blocks on the stiffest spring, stretched by 1e4 roundings of a coordinate, and lowered by as
