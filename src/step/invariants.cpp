@@ -44,11 +44,11 @@ bool within_limit(const FaceRow& r, double shear, double normal) {
 std::string of_face(const Simulation& sim, std::size_t k) {
   const FaceSet& c = sim.motion.contacts;
   const BlockSet& b = sim.scene->blocks;
-  const FaceRow row = face_row(sim, k);
-  const FaceFields& m = row.state;
   if (c.edge[k] >= c.facing[k] || c.facing[k] >= b.vertex_count()) return "edges are out of range";
   if (b.vertex_block[c.edge[k]] == b.vertex_block[c.facing[k]]) return "joins a block to itself";
   if (c.law[k] >= sim.motion.laws.rows.size()) return "has no law";
+  const FaceRow row = face_row(sim, k);
+  const FaceFields& m = row.state;
   for (const FaceField& field : face_fields) {
     if (!std::isfinite(m.*field.value)) return fmt::format("{} is not finite", field.name);
   }
