@@ -275,14 +275,13 @@ EDDA_INLINE void measure_lane(const ChunkColumns& c, ChunkMeasures& to, std::siz
   const Face now = face_between(stands, pair), old = face_between(stood, pair);
   const EndMotion moved = motion_of(now, stands.corners(), stood.corners(), pair.length_ratio);
   const LaneBits bit = bit_of_lane[k];
-  const bool stores = (c.was & (bit << lane_bits::stored)) != 0,
-             on = (c.was & (bit << lane_bits::on)) != 0;
-  const bool tension = c.carries_tension[k] > 0.0, bonded = c.bonded[k] > 0.0;
+  const bool stores = (c.was & (bit << lane_bits::stored)) != 0;
+  const bool tension = c.carries_tension[k] > 0.0;
   const double pressure = stored_between(old, then, now, at, tension);
   to.energy[k] =
       face_energy(pressure, {c.before.spring[k], {c.before.slip_a[k], c.before.slip_b[k]}, stores},
                   {moved.slip.a, moved.slip.b}, tension);
-  to.normal[k] = stores | (bonded & on) ? now.normal.a + now.normal.b : 0.0;
+  to.normal[k] = stores ? now.normal.a + now.normal.b : 0.0;
 }
 }  // namespace
 

@@ -324,7 +324,7 @@ void measure_tile(const FaceTiles& t, const FaceSet& c, const BlockSet& b, const
   for (std::size_t n = 0; n < numbers.chunks; ++n) {
     const std::size_t q = numbers.first_chunk + n;
     const bool stores = (t.bits[t.now][q] & lane_bits::field(lane_bits::stored)) != 0;
-    if (!stores && t.idle[1 - t.now][q] != 0 && t.bonds[q] == 0) continue;
+    if (!stores && t.idle[1 - t.now][q] != 0) continue;
     EdgesAlone alone;
     Records e, f, e_then, f_then;
     read_vertices(t, c, b, pose, q, true, alone);
