@@ -101,10 +101,7 @@ void break_bond(FaceSet& c, const BlockSet& b, const LawTable& laws, const FaceF
                       !failure_now(c, b, now, k).sheared;
   const bool breaks = c.bonded(k) && !cracks;
   if (breaks) set_residual_strength(c, laws, k);
-  if (cracks) {
-    set_bond(c, laws, BondState::cracked, c.slip_so_far[k], k);
-    c.set(FaceFlag::carries_tension, k, laws.rows[c.law[k]].residual_tension > 0.0);
-  }
+  if (cracks) set_bond(c, laws, BondState::cracked, c.slip_so_far[k], k);
   c.mark_failure(k, breaks);
   // The face releases altogether if its tension exceeds the residual tensile strength, too.
   if (failure_now(c, b, now, k).torn) c.set(FaceFlag::carries_tension, k, false);

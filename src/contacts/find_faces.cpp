@@ -127,8 +127,8 @@ void begin_face(FaceSet& next, std::size_t k, const BlockSet& b, const LawTable&
   next.law[k] = laws.resolve_met(b.edge_joint[e], b.edge_joint[f], b.material[b.vertex_block[e]],
                                  b.material[b.vertex_block[f]]);
   set_residual_strength(next, laws, k);
-  next.set(FaceFlag::carries_tension, k,
-           false);  // contacts that form later have no tensile strength
+  // Contacts that form later have no tensile strength.
+  next.set(FaceFlag::carries_tension, k, false);
   fill_constants_of_edges(next, b, k);
 }
 

@@ -82,12 +82,9 @@ void put_in_force(FaceSet& c, const StrengthInForce& s, std::size_t k) {
 void put_in_force(FaceSet& c, const FaceStates& states, const LawTable& laws) {
   for (std::size_t k = 0; k < c.size(); ++k) {
     const FaceFields& m = states.before[k];
-    StrengthInputs in{.slip = c.slip_so_far[k]};
     // Of faces that stored nothing length and forces may be those of an earlier step.
-    if (m.energy > 0.0) {
-      in.length = m.length;
-      in.normal = m.normal_a + m.normal_b;
-    }
+    const double length = m.energy > 0.0 ? m.length : 0.0;
+    const StrengthInputs in{c.slip_so_far[k], length, m.normal_a + m.normal_b};
     put_in_force(c, strength_of(laws, c.law[k], c.bond(k), in), k);
   }
 }
@@ -95,13 +92,12 @@ void put_in_force(FaceSet& c, const FaceStates& states, const LawTable& laws) {
 void set_bond(FaceSet& c, const LawTable& laws, BondState bond, double slip, std::size_t k) {
   c.set_bond(bond, k);
   c.slip_so_far[k] = slip;
+  c.set(FaceFlag::carries_tension, k, laws.rows[c.law[k]].residual_tension > 0.0);
   put_in_force(c, strength_of(laws, c.law[k], bond, {.slip = slip}), k);
 }
 
 void set_residual_strength(FaceSet& c, const LawTable& laws, std::size_t k) {
-  const Law& law = laws.rows[c.law[k]];
-  set_bond(c, laws, BondState::unbonded, first_slip(law), k);
-  c.set(FaceFlag::carries_tension, k, law.residual_tension > 0.0);
+  set_bond(c, laws, BondState::unbonded, first_slip(laws.rows[c.law[k]]), k);
 }
 
 double first_slip(const Law& law) {

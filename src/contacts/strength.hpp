@@ -43,7 +43,8 @@ StrengthInForce strength_of(const LawTable& laws, std::uint16_t law, BondState b
 void put_in_force(FaceSet& faces, const StrengthInForce& strength, std::size_t k);
 /// Puts in force for all faces what follows from their states: that of n - 1, as in a step.
 void put_in_force(FaceSet& faces, const FaceStates& states, const LawTable& laws);
-/// The bond of face k, with its strength at this slip where it carries nothing.
+/// The bond of face k, with its strength at this slip where it carries nothing. It carries tension
+/// if its law has residual tensile strength; an intact one is told otherwise by bond_faces().
 void set_bond(FaceSet& faces, const LawTable& laws, BondState bond, double slip, std::size_t k);
 /// Takes the bond of face k, which then has the residual strength of its law, in tension too.
 void set_residual_strength(FaceSet& faces, const LawTable& laws, std::size_t k);

@@ -84,44 +84,39 @@ struct KeptField {
 template <class Fields>
 inline constexpr std::nullptr_t kept_fields = nullptr;
 template <>
-inline constexpr std::array kept_fields<FaceMemoryColumns<double>> = [] {
-  using F = FaceFields;
-  using C = FaceMemoryColumns<double>;
-  return std::array{KeptField<C>{&F::slip_a, &C::slip_a}, KeptField<C>{&F::slip_b, &C::slip_b},
-                    KeptField<C>{&F::overlap, &C::overlap}, KeptField<C>{&F::spring, &C::spring}};
-}();
+inline constexpr auto kept_fields<FaceMemoryColumns<double>> =
+    std::to_array<KeptField<FaceMemoryColumns<double>>>(
+        {{&FaceFields::slip_a, &FaceMemoryColumns<double>::slip_a},
+         {&FaceFields::slip_b, &FaceMemoryColumns<double>::slip_b},
+         {&FaceFields::overlap, &FaceMemoryColumns<double>::overlap},
+         {&FaceFields::spring, &FaceMemoryColumns<double>::spring}});
 template <>
-inline constexpr std::array kept_fields<DashpotMemoryColumns<double>> = [] {
-  using F = FaceFields;
-  using C = DashpotMemoryColumns<double>;
-  return std::array{KeptField<C>{&F::damping_a, &C::damping_a},
-                    KeptField<C>{&F::damping_b, &C::damping_b},
-                    KeptField<C>{&F::shear_damping_a, &C::shear_damping_a},
-                    KeptField<C>{&F::shear_damping_b, &C::shear_damping_b},
-                    KeptField<C>{&F::strike_a, &C::strike_a},
-                    KeptField<C>{&F::strike_b, &C::strike_b}};
-}();
+inline constexpr auto kept_fields<DashpotMemoryColumns<double>> =
+    std::to_array<KeptField<DashpotMemoryColumns<double>>>(
+        {{&FaceFields::damping_a, &DashpotMemoryColumns<double>::damping_a},
+         {&FaceFields::damping_b, &DashpotMemoryColumns<double>::damping_b},
+         {&FaceFields::shear_damping_a, &DashpotMemoryColumns<double>::shear_damping_a},
+         {&FaceFields::shear_damping_b, &DashpotMemoryColumns<double>::shear_damping_b},
+         {&FaceFields::strike_a, &DashpotMemoryColumns<double>::strike_a},
+         {&FaceFields::strike_b, &DashpotMemoryColumns<double>::strike_b}});
 template <>
-inline constexpr std::array kept_fields<PressureColumns<double>> = [] {
-  using F = FaceFields;
-  using C = PressureColumns<double>;
-  return std::array{KeptField<C>{&F::normal_a, &C::normal_a},
-                    KeptField<C>{&F::normal_b, &C::normal_b}, KeptField<C>{&F::length, &C::length},
-                    KeptField<C>{&F::cohesive, &C::cohesive}};
-}();
+inline constexpr auto kept_fields<PressureColumns<double>> =
+    std::to_array<KeptField<PressureColumns<double>>>(
+        {{&FaceFields::normal_a, &PressureColumns<double>::normal_a},
+         {&FaceFields::normal_b, &PressureColumns<double>::normal_b},
+         {&FaceFields::length, &PressureColumns<double>::length},
+         {&FaceFields::cohesive, &PressureColumns<double>::cohesive}});
 template <>
-inline constexpr std::array kept_fields<FaceWorkColumns<double>> = [] {
-  using F = FaceFields;
-  using C = FaceWorkColumns<double>;
-  return std::array{KeptField<C>{&F::friction_work, &C::friction_work},
-                    KeptField<C>{&F::transfer, &C::transfer},
-                    KeptField<C>{&F::trial_a, &C::trial_a},
-                    KeptField<C>{&F::trial_b, &C::trial_b},
-                    KeptField<C>{&F::shear_a, &C::shear_a},
-                    KeptField<C>{&F::shear_b, &C::shear_b},
-                    KeptField<C>{&F::damping_work, &C::damping_work},
-                    KeptField<C>{&F::damping_due, &C::damping_due}};
-}();
+inline constexpr auto kept_fields<FaceWorkColumns<double>> =
+    std::to_array<KeptField<FaceWorkColumns<double>>>(
+        {{&FaceFields::friction_work, &FaceWorkColumns<double>::friction_work},
+         {&FaceFields::transfer, &FaceWorkColumns<double>::transfer},
+         {&FaceFields::trial_a, &FaceWorkColumns<double>::trial_a},
+         {&FaceFields::trial_b, &FaceWorkColumns<double>::trial_b},
+         {&FaceFields::shear_a, &FaceWorkColumns<double>::shear_a},
+         {&FaceFields::shear_b, &FaceWorkColumns<double>::shear_b},
+         {&FaceFields::damping_work, &FaceWorkColumns<double>::damping_work},
+         {&FaceFields::damping_due, &FaceWorkColumns<double>::damping_due}});
 inline constexpr std::size_t corner_columns = 5;
 static_assert(kept_fields<FaceMemoryColumns<double>>.size() + corner_columns == memory_columns &&
                   kept_fields<DashpotMemoryColumns<double>>.size() == dashpot_memory_columns &&

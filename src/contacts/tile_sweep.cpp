@@ -316,10 +316,6 @@ void measure_tile(const FaceTiles& t, const FaceSet& c, const BlockSet& b, const
                   std::size_t tile, std::vector<double>& energy, std::vector<double>& normal) {
   const TileNumbers& numbers = t.numbers[tile];
   SweepTables tables{};
-  tables.edges = t.constants[tile].edges.numbers.data();
-  tables.strengths = t.constants[tile].strengths.numbers.data();
-  tables.edge_set = t.edge_set.data();
-  tables.strength_set = t.strength_set.data();
   tables.was = t.bits[t.now].data();
   for (std::size_t n = 0; n < numbers.chunks; ++n) {
     const std::size_t q = numbers.first_chunk + n;
@@ -330,7 +326,11 @@ void measure_tile(const FaceTiles& t, const FaceSet& c, const BlockSet& b, const
     read_vertices(t, c, b, pose, q, true, alone);
     read_edges(alone.at[0], slots_alone, slots_alone + lanes, e, f);
     read_edges(alone.then[0], slots_alone, slots_alone + lanes, e_then, f_then);
-    ChunkView view = view_of_constants(tables, q);
+    ChunkView view{};
+    view.of = &tables;
+    view.chunk = q;
+    view.edges = t.edges_of(tile, q);
+    view.strengths = t.strengths_of(tile, q);
     view.before = numbers.memory[1 - t.now].data() + n * memory_columns * lanes;
     view.e = &e;
     view.f = &f;

@@ -42,6 +42,16 @@ MovedBlocks bonded_square() {
   return bonded_square(weakening_bond());
 }
 
+JointLaw barton_joint() {
+  JointLaw joint;
+  joint.name = "j";
+  joint.type = LawType::barton_bandis;
+  joint.jrc = 8.0;
+  joint.jcs = 50e6;
+  joint.residual_angle = 28.0;
+  return joint;
+}
+
 std::size_t bonded_face(const MovedBlocks& m) {
   std::size_t k = 0;
   while (k < m.faces.size() && !m.faces.bonded(k)) ++k;
@@ -305,12 +315,7 @@ TEST(BartonBandis, Formulas) {
 /// above phi_r is the dilation angle.
 TEST(BartonBandis, FrictionAndDilationInForce) {
   for (const double factor : {1.0, 2.0}) {
-    JointLaw joint;
-    joint.name = "j";
-    joint.type = LawType::barton_bandis;
-    joint.jrc = 8.0;
-    joint.jcs = 50e6;
-    joint.residual_angle = 28.0;
+    const JointLaw joint = barton_joint();
     MovedBlocks m = square_on_base(joint, thickness);
     m.start();
     m.laws = divided_laws(m.model, {factor});
@@ -349,12 +354,7 @@ TEST(StrengthFactors, DivideAllStrength) {
 /// A face that has carried and is open has no normal stress: its friction is the residual one,
 /// whatever it was when it last carried.
 TEST(StrengthFactors, AnOpenFaceOfBartonBandisHasItsResidualFriction) {
-  JointLaw joint;
-  joint.name = "j";
-  joint.type = LawType::barton_bandis;
-  joint.jrc = 8.0;
-  joint.jcs = 50e6;
-  joint.residual_angle = 28.0;
+  JointLaw joint = barton_joint();
   joint.residual.friction_angle = joint.peak.friction_angle = 28.0;
   MovedBlocks m = square_on_base(joint, thickness);
   m.start();
