@@ -81,7 +81,7 @@ void describe(edda::BenchScene& scene, double made_in) {
 /// What callgrind counts, too.
 void measure(Simulation& s, const Options& o) {
   const edda::OpenCloseCounts before = s.accounts.open_close;
-  const edda::StageSeconds stages = s.accounts.seconds;
+  const edda::StepSeconds stages = s.accounts.seconds;
   const std::uint64_t searches = s.motion.contacts.rebuilds, redone = s.accounts.steps.redone;
   CALLGRIND_START_INSTRUMENTATION;
   const Stopwatch watch(static_cast<int>(o.threads));

@@ -98,7 +98,7 @@ Simulation collapsing_wall(int columns, int rows) {
   constexpr double fallen = 1.5;  // m/s
   for (std::size_t i = 0; i < sim.scene->blocks.size(); ++i) {
     if (sim.scene->blocks.fixed[i]) continue;
-    for (auto& vy : sim.motion.state.vy) vy[i] = -fallen;
+    for (auto& vy : sim.motion.state.velocity.y) vy[i] = -fallen;
   }
   start(sim, 1000.0);
   take_time(sim, 0.25);

@@ -101,13 +101,12 @@ Equilibrium rest_of(Simulation& s, int columns) {
   for (std::size_t i = 0; i < b.size(); ++i) {
     const Place place = place_of(b, i);
     if (!place.is_brick()) continue;
-    const Deformation f = deformation(b, s.motion.state.x, s.motion.state.y, i);
-    const Vec2 u =
-        centroid(s.motion.state.x, s.motion.state.y, i) - Vec2{b.centroid_x[i], b.centroid_y[i]};
+    const Deformation f = deformation(b, s.motion.state.position, i);
+    const Vec2 u = centroid(s.motion.state.position, i) - Vec2{b.centroid_x[i], b.centroid_y[i]};
     Placed placed{u.x, u.y, f.xx, f.xy, f.yx, f.yy, {}};
     const BlockModes modes = b.modes(i);
     for (std::size_t at = 0; modes.count > 0 && at < std::min<std::size_t>(modes.corners, 8); ++at)
-      placed.bent[at] = modes.at(s.motion.state.bend, at);
+      placed.bent[at] = modes.at(s.motion.state.position.modes, at);
     rest.bricks[key_of(place)] = placed;
   }
   for (std::size_t k = 0; k < c.size(); ++k) {
@@ -150,7 +149,7 @@ void bend(Simulation& s, const Placed& p, std::size_t i) {
   const Eigen::MatrixXd q = shape.householderQr().solve(bent);
   for (std::size_t a = 0; a < modes.count; ++a) {
     const auto row = static_cast<Eigen::Index>(a);
-    s.motion.state.bend.set(modes[a], {q(row, 0), q(row, 1)});
+    s.motion.state.position.modes.set(modes[a], {q(row, 0), q(row, 1)});
   }
 }
 
@@ -164,12 +163,11 @@ void put(Simulation& s, const Equilibrium& rest, int columns) {
     const Vec2 c{b.centroid_x[i], b.centroid_y[i]};
     for (std::size_t k = 0; k < 3; ++k) {
       const double ax = b.node_x[k][i] - c.x, ay = b.node_y[k][i] - c.y;
-      s.motion.state.x[k][i] = c.x + (from.drifts ? p.ux : 0.0) + p.xx * ax + p.xy * ay;
-      s.motion.state.y[k][i] = c.y + p.uy + p.yx * ax + p.yy * ay;
+      s.motion.state.position.x[k][i] = c.x + (from.drifts ? p.ux : 0.0) + p.xx * ax + p.xy * ay;
+      s.motion.state.position.y[k][i] = c.y + p.uy + p.yx * ax + p.yy * ay;
     }
     bend(s, p, i);
-    place_vertices(b, s.motion.state.x, s.motion.state.y, s.motion.state.bend, i, s.motion.pose.x,
-                   s.motion.pose.y);
+    place_vertices(b, s.motion.state.position, i, s.motion.pose.x, s.motion.pose.y);
   }
   s.motion.pose.x1 = s.motion.pose.x;
   s.motion.pose.y1 = s.motion.pose.y;
@@ -179,7 +177,7 @@ void put(Simulation& s, const Equilibrium& rest, int columns) {
 void touch(Simulation& s, const Equilibrium& rest, int columns) {
   const BlockSet& b = s.scene->blocks;
   put_faces(s, take_faces(s));  // where the blocks are
-  evaluate_at_rest(s, 1.0);
+  reevaluate_at_n(s, 1.0);
   end_at_rest(s.motion.contacts, s.motion.tiled.tiles, b, s.motion.pose);
   FaceStates states = take_faces(s);
   const FaceSet& c = s.motion.contacts;

@@ -30,10 +30,9 @@ void for_each_node(const Simulation& s, Body body) {
 Field accelerations_of(Simulation& s) {
   for (std::size_t i = 0; i < s.scene->blocks.size(); ++i) {
     if (s.motion.state.alive[i])
-      place_vertices(s.scene->blocks, s.motion.state.x, s.motion.state.y, i, s.motion.pose.x,
-                     s.motion.pose.y);
+      place_vertices(s.scene->blocks, s.motion.state.position, i, s.motion.pose.x, s.motion.pose.y);
   }
-  evaluate_at_rest(s, s.motion.state.step);
+  reevaluate_at_n(s, s.motion.state.step);
   sum_face_forces(s);
   gather_forces(s.motion.forces, s.scene->blocks, s.motion.state, s.motion.pose,
                 s.motion.on_contacts, s.attached.springs, s.scene->model.gravity);
@@ -90,7 +89,7 @@ double true_critical_step(const Simulation& sim, Carrying which, int rounds) {
   Simulation s = sim;
   change_faces(
       s, [&](FaceSet& faces, const FaceStates& states) { hold_contacts(faces, states, which); });
-  const Nodes x0 = s.motion.state.x, y0 = s.motion.state.y;
+  const Nodes x0 = s.motion.state.position.x, y0 = s.motion.state.position.y;
   const Field at_rest = accelerations_of(s);
   std::mt19937 rng(1);
   std::uniform_real_distribution<double> u(-1.0, 1.0);
@@ -112,8 +111,8 @@ double true_critical_step(const Simulation& sim, Carrying which, int rounds) {
     for_each_node(s, [&](std::size_t k, std::size_t i) {
       v.x[k][i] *= scale;
       v.y[k][i] *= scale;
-      s.motion.state.x[k][i] = x0[k][i] + v.x[k][i];
-      s.motion.state.y[k][i] = y0[k][i] + v.y[k][i];
+      s.motion.state.position.x[k][i] = x0[k][i] + v.x[k][i];
+      s.motion.state.position.y[k][i] = y0[k][i] + v.y[k][i];
     });
     const Field a = accelerations_of(s);
     double product = 0.0;

@@ -115,6 +115,7 @@ void print_object(const PreparedRun& run, const ModelCheck& found) {
   json.open_object().pair("model", sim.scene->model.file).pair("title", sim.scene->model.title);
   json.pair("blocks", sim.scene->blocks.size()).pair("held", found.fixed);
   json.pair("vertices", sim.scene->blocks.vertex_count());
+  if (sim.scene->blocks.meshes.any()) json.pair("zones", sim.scene->blocks.meshes.zone.size());
   json.key("smallest").open_object();
   add_place(json, "area", r.smallest_area, r.smallest_area_at);
   add_place(json, "edge", r.smallest_edge, r.smallest_edge_at);

@@ -42,7 +42,8 @@ void print_end(const FosResult& r, const std::string& folder) {
           ? fmt::format("a corner has moved by more than {:.3g} m", *r.criterion.displacement)
           : fmt::format("rigid blocks have no equilibrium in their present places, or blocks have "
                         "moved by more than {:.2g} of their size as seen from those beside them "
-                        "({:.2g} where rigid blocks as drawn have none)",
+                        "({:.2g} where rigid blocks as drawn have none), or rock that yields by "
+                        "three times what it strains until it does",
                         r.criterion.allowed, moved_little));
   fmt::print("  {}, {} of wall time; results in {}/ (fos.csv, mechanism.png)\n",
              counted(r.trials.size(), "trial"), duration_text(r.seconds), folder);

@@ -56,7 +56,8 @@ void attach_stress(const Model& model, std::size_t row, const BlockSet& b, doubl
                     "give a line that faces of blocks lie on, or sides of the outline"});
 }
 
-/// A body force: one at the centroid of each free block in the polygon.
+/// A body force: one at the centroid of each free block in the polygon. It is the same all over the
+/// block, and leaves the modes alone.
 void attach_region(const Load& load, Index row, const BlockSet& b, Loads& loads, Faults& faults) {
   const std::size_t before = loads.points.size();
   Ring ring;
@@ -64,7 +65,8 @@ void attach_region(const Load& load, Index row, const BlockSet& b, Loads& loads,
   if (signed_area(ring) < 0.0) std::reverse(ring.begin(), ring.end());
   for (Id i = 0; i < b.size(); ++i) {
     if (b.fixed[i] || side_of({&ring, 1}, centroid(b.node_x, b.node_y, i), 0.0) < 0) continue;
-    loads.points.push_back({i, centroid_weights, b.area[i] * b.thickness * *load.body_force, row});
+    loads.points.push_back(
+        {{i, centroid_weights}, b.area[i] * b.thickness * *load.body_force, row});
   }
   if (loads.points.size() > before) return;
   Fault fault{load.where, "no free block has its centroid in this polygon",
@@ -77,7 +79,10 @@ void attach_point(const Model& model, const PolygonSet& polygons, const Load& lo
                   const BlockSet& b, Loads& loads, Faults& faults) {
   const Vec2 p = *load.point - b.origin;
   if (const auto block = block_at(model, polygons, b, p, Among::free_blocks)) {
-    loads.points.push_back({*block, weights_at(b, *block, p), *load.force, row});
+    // A block that bends has no modes for what acts within it (theory, section 3.4).
+    const BlockPoint at = b.is_meshed(*block) ? block_point(b, *block, p)
+                                              : BlockPoint{*block, weights_at(b, *block, p)};
+    loads.points.push_back({at, *load.force, row});
     return;
   }
   Fault fault{load.where, "lies in no block", "move it into one (edda cut draws them)"};
@@ -179,11 +184,11 @@ std::vector<ActiveInterval> first_intervals(const Model& model, const std::vecto
 void sort_by_block(const BlockSet& b, Loads& l) {
   auto by_edge = [](const auto& x, const auto& y) { return x.edge < y.edge; };
   std::stable_sort(l.points.begin(), l.points.end(),
-                   [](const PointLoad& x, const PointLoad& y) { return x.block < y.block; });
+                   [](const PointLoad& x, const PointLoad& y) { return x.at.block < y.at.block; });
   std::stable_sort(l.edges.begin(), l.edges.end(), by_edge);
   std::stable_sort(l.wet.begin(), l.wet.end(), by_edge);
   std::vector<std::uint8_t> any(b.size(), 0);
-  for (const PointLoad& p : l.points) any[p.block] = 1;
+  for (const PointLoad& p : l.points) any[p.at.block] = 1;
   for (const EdgeLoad& e : l.edges) any[b.vertex_block[e.edge]] = 1;
   for (const WetEdge& e : l.wet) any[b.vertex_block[e.edge]] = 1;
   l.place.assign(b.size(), no_id);
@@ -195,7 +200,7 @@ void sort_by_block(const BlockSet& b, Loads& l) {
     l.place[i] = static_cast<Id>(l.blocks.size());
     l.blocks.push_back(i);
     Loads::Range r{point, 0, edge, 0, wet, 0};
-    while (point < l.points.size() && l.points[point].block == i) ++point;
+    while (point < l.points.size() && l.points[point].at.block == i) ++point;
     while (edge < l.edges.size() && b.vertex_block[l.edges[edge].edge] == i) ++edge;
     while (wet < l.wet.size() && b.vertex_block[l.wet[wet].edge] == i) ++wet;
     r.point_end = point;
@@ -265,9 +270,8 @@ void keep_wall_forces(const Model& model, const BlockSet& b, const std::vector<W
                       Loads& loads) {
   const std::size_t before = model.loads.size() + model.boundaries.size();
   for (const WallForce& f : forces) {
-    const Id v = f.vertex;
-    loads.points.push_back({b.vertex_block[v], weights_of(b.weight, v), f.force,
-                            static_cast<Index>(before) + f.owner, v});
+    loads.points.push_back(
+        {corner_point(b, f.vertex), f.force, static_cast<Index>(before) + f.owner});
   }
   sort_by_block(b, loads);
 }

@@ -68,8 +68,8 @@ struct NodeAt {
   Vec2 m, h;
 };
 
-NodeAt node_at(const Bolts& b, const State& state, std::size_t k) {
-  const NodeVectors x = vectors_of(state.x, state.y, b.host[k]);
+NodeAt node_at(const Bolts& b, const BlockSet& blocks, const State& state, std::size_t k) {
+  const NodeVectors x = carriers_at(b, blocks, state, k);
   return {weighted(weights_of(b.along, k), x), weighted(weights_of(b.weight, k), x)};
 }
 
@@ -90,11 +90,11 @@ BarFrame frame_between(const NodeAt& at, const NodeAt& next, double length) {
 /// One grouted bolt at the present positions of its hosts.
 class Chain {
  public:
-  Chain(Bolts& bolts, const State& state, Id first, Id last)
+  Chain(Bolts& bolts, const BlockSet& blocks, const State& state, Id first, Id last)
       : b_(bolts), first_(first), last_(last) {
-    NodeAt at = node_at(b_, state, first);
+    NodeAt at = node_at(b_, blocks, state, first);
     for (std::size_t k = first; k + 1 < last; ++k) {
-      const NodeAt next = node_at(b_, state, k + 1);
+      const NodeAt next = node_at(b_, blocks, state, k + 1);
       b_.frame[k] = frame_between(at, next, b_.length[k]);
       at = next;
     }
@@ -231,9 +231,11 @@ void disconnect_excavated(Bolts& b, const State& state, Id first, Id last) {
   }
 }
 
-Spent update_grouted(Bolts& b, const BoltData& row, const State& state, Id first, Id last) {
+Spent update_grouted(Bolts& b, const BlockSet& blocks, const State& state, std::size_t r) {
+  const BoltData& row = b.rows[r];
+  const Id first = b.begin[r], last = b.begin[r + 1];
   Spent spent;
-  spent.increments = Chain(b, state, first, last).solve();
+  spent.increments = Chain(b, blocks, state, first, last).solve();
   for (std::size_t k = first; k < last; ++k) {
     yield_to(b.bonds, k, b.slip[k], spent);
     if (k + 1 == last) break;
@@ -248,9 +250,10 @@ Spent update_grouted(Bolts& b, const BoltData& row, const State& state, Id first
 }
 
 /// End-anchored bolt: one bar along the distance of its ends, which goes slack rather than push.
-Spent update_ends(Bolts& b, const BoltData& row, const State& state, Id k) {
+Spent update_ends(Bolts& b, const BlockSet& blocks, const State& state, std::size_t r) {
+  const Id k = b.begin[r];
   Spent spent;
-  const Vec2 gap = node_place(b, state, k + 1) - node_place(b, state, k);
+  const Vec2 gap = node_place(b, blocks, state, k + 1) - node_place(b, blocks, state, k);
   const double distance = norm(gap), longer = distance - b.length[k];
   if (longer - b.bars.plastic[k] >= 0.0 || b.bars.broken[k] != 0) {
     yield_to(b.bars, k, longer, spent);
@@ -261,33 +264,38 @@ Spent update_ends(Bolts& b, const BoltData& row, const State& state, Id k) {
   const Vec2 pull = (b.bars.force[k] / distance) * gap;
   spread(b.on_host[k], weights_of(b.weight, k), pull);
   spread(b.on_host[k + 1], weights_of(b.weight, k + 1), -pull);
-  break_steel(b, row, k);
+  break_steel(b, b.rows[r], k);
   return spent;
 }
 
 }  // namespace
 
-BarFrame bar_frame(const Bolts& b, const State& state, std::size_t k) {
-  return frame_between(node_at(b, state, k), node_at(b, state, k + 1), b.length[k]);
+NodeVectors carriers_at(const Bolts& b, const BlockSet& blocks, const State& state, std::size_t k) {
+  if (b.zone[k] == no_id) return vectors_of(state.position, b.host[k]);
+  return zone_at(blocks, state.position, b.host[k], b.zone[k]);
 }
 
-Vec2 node_place(const Bolts& b, const State& state, std::size_t k) {
+BarFrame bar_frame(const Bolts& b, const BlockSet& blocks, const State& state, std::size_t k) {
+  return frame_between(node_at(b, blocks, state, k), node_at(b, blocks, state, k + 1), b.length[k]);
+}
+
+Vec2 node_place(const Bolts& b, const BlockSet& blocks, const State& state, std::size_t k) {
   NodeWeights w;
   for (std::size_t j = 0; j < nodes_per_block; ++j) {
     w[j] = b.weight[j][k] + b.slip[k] * b.along[j][k];
   }
-  return weighted(w, state.x, state.y, b.host[k]);
+  return weighted(w, carriers_at(b, blocks, state, k));
 }
 
-void update_bolts(Bolts& b, const State& state) {
+void update_bolts(Bolts& b, const BlockSet& blocks, const State& state) {
   if (b.rows.empty()) return;
   std::vector<Spent> spent(b.rows.size());
   const auto update_row = [&](std::size_t r) {
     const Id first = b.begin[r], last = b.begin[r + 1];
     for (Id k = first; k < last; ++k) b.on_host[k] = {};
     disconnect_excavated(b, state, first, last);
-    spent[r] = b.rows[r].grouted ? update_grouted(b, b.rows[r], state, first, last)
-                                 : update_ends(b, b.rows[r], state, first);
+    spent[r] =
+        b.rows[r].grouted ? update_grouted(b, blocks, state, r) : update_ends(b, blocks, state, r);
   };
   parallel_for(b.rows.size(), update_row, 1000);
   b.slipped += b.pending_friction;
@@ -303,10 +311,17 @@ void update_bolts(Bolts& b, const State& state) {
   }
 }
 
-void add_bolts(NodeVectors& f, const Bolts& b, std::size_t i) {
-  if (b.place.empty() || b.place[i] == no_id) return;
-  for (Id q = b.block_begin[b.place[i]]; q < b.block_begin[b.place[i] + 1]; ++q) {
-    f = f + b.on_host[b.block_nodes[q]];
+void add_bolts(BlockForces& on, const Bolts& b) {
+  if (b.place.empty()) return;
+  const Id place = b.place[on.block];
+  if (place == no_id) return;
+  for (Id q = b.block_begin[place]; q < b.block_begin[place + 1]; ++q) {
+    const Id k = b.block_nodes[q];
+    if (b.zone[k] == no_id) {
+      on.sum.nodes = on.sum.nodes + b.on_host[k];
+    } else {
+      on.on_zone(b.zone[k], b.on_host[k]);
+    }
   }
 }
 

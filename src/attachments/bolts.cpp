@@ -65,7 +65,7 @@ std::vector<BoltSegment> segments_of(const Outlines& o, const State& state, Vec2
   std::vector<BoltSegment> stays, clean;
   for (Id i = 0; i < o.b.size(); ++i) {
     if (state.alive[i] == 0) continue;
-    const Vec2 arm = centroid(state.x, state.y, i) - head;
+    const Vec2 arm = centroid(state.position, i) - head;
     const double reach = 1.1 * o.b.radius[i];
     if (dot(arm, t) < -reach || dot(arm, t) > length + reach || std::abs(cross(arm, t)) > reach)
       continue;
@@ -201,18 +201,19 @@ class Builder {
 
   std::size_t add_node(Id i, Vec2 p, Vec2 t, double distance, double bonded, const BoltData& data) {
     // The material point now at p, and the material direction that is now t.
-    const Deformation f = deformation(o_.b, state_.x, state_.y, i);
+    const auto [zone, gradient, at] = carriers(i, p);
+    const Deformation f = gradient_of(gradient, at);
     const double det = f.xx * f.yy - f.xy * f.yx;
     const auto back = [&](Vec2 v) {
       return Vec2{(f.yy * v.x - f.xy * v.y) / det, (f.xx * v.y - f.yx * v.x) / det};
     };
-    const Vec2 arm = back(p - centroid(state_.x, state_.y, i)), a = back(t);
-    const NodeVectors gradient = vectors_of(o_.b.grad_x, o_.b.grad_y, i);
+    const Vec2 arm = back(p - resultant(at) / nodes_per_block), a = back(t);
     for (std::size_t j = 0; j < nodes_per_block; ++j) {
       bolts.weight[j].push_back(centroid_weights[j] + dot(gradient[j], arm));
       bolts.along[j].push_back(dot(gradient[j], a));
     }
     bolts.host.push_back(i);
+    bolts.zone.push_back(zone);
     bolts.distance.push_back(distance);
     bolts.bonded.push_back(bonded);
     bolts.length.push_back(0.0);
@@ -222,6 +223,28 @@ class Builder {
     add_spring(bolts.bars, 0.0, data.yield);
     add_spring(bolts.dowels, 0.0, 0.0);
     return bolts.size() - 1;
+  }
+
+  /// The three points that carry what is now at p in block i, and the gradients of the area
+  /// coordinates in them at the start.
+  struct Carriers {
+    Id zone;
+    NodeVectors gradient, at;
+  };
+  Carriers carriers(Id i, Vec2 p) const {
+    const BlockSet& b = o_.b;
+    const Meshes& m = b.meshes;
+    if (!b.is_meshed(i))
+      return {no_id, vectors_of(b.grad_x, b.grad_y, i), vectors_of(state_.position, i)};
+    std::vector<Vec2> node;
+    for (std::size_t j = m.begin[i]; j < m.begin[i + 1]; ++j)
+      node.push_back(mesh_node_at(b, state_.position, i, j));
+    const std::size_t zone = in_its_zone(m, i, node, p).zone;
+    const auto arm = [&](std::size_t k) {
+      return Vec2{m.arm_x[m.zone[zone][k]], m.arm_y[m.zone[zone][k]]};
+    };
+    return {static_cast<Id>(zone), area_gradients(arm(0), arm(1), arm(2)),
+            zone_at(b, state_.position, i, zone)};
   }
 
   void set_bar(std::size_t k, double length, double stretches, const BoltData& data) {
@@ -315,7 +338,7 @@ Result<Bolts> attach_bolts(const Model& model, const BlockSet& b, const State& s
   if (!faults.empty()) return faults;
   Bolts bolts = std::move(builder.bolts);
   complete_bolts(bolts, model, b.size());
-  update_bolts(bolts, state);
+  update_bolts(bolts, b, state);
   // Slip while the pretension reaches equilibrium is not part of the run.
   bolts.slipped = bolts.fractured = bolts.pending_friction = bolts.pending_fracture =
       bolts.work_pending = 0.0;
@@ -358,6 +381,7 @@ void add_bolts(Bolts& bolts, const Bolts& more, const Model& model, std::size_t 
   append(bolts.rows, more.rows);
   for (std::size_t r = 1; r < more.begin.size(); ++r) bolts.begin.push_back(before + more.begin[r]);
   append(bolts.host, more.host);
+  append(bolts.zone, more.zone);
   for (std::size_t k = 0; k < nodes_per_block; ++k) {
     append(bolts.weight[k], more.weight[k]);
     append(bolts.along[k], more.along[k]);

@@ -3,8 +3,9 @@
 //
 // A bolt is a chain of nodes without mass. Node k sits in a block (its host) at the material point
 // X_k + s_k a, with a the bolt's direction in the host at installation. Its only degree of freedom
-// is s_k, the slip along the bolt. With area coordinates w and their derivative d along a it lies
-// at
+// is s_k, the slip along the bolt. It is carried by three points j: the nodes of the block, or
+// where that is meshed the corners of the zone that held the node at installation. With area
+// coordinates w in them and their derivative d along a it lies at
 //
 //  x_k = sum_j (w_j + s_k d_j) x_j,      m_k = sum_j d_j x_j  (the bolt's direction there now).
 //
@@ -73,6 +74,7 @@ struct Bolts {
   std::vector<BoltData> rows;
   std::vector<Id> begin;               ///< [rows + 1] first node of each
   std::vector<Id> host;                ///< [nn] block
+  std::vector<Id> zone;                ///< [nn] of all meshes; no_id: the block has none
   Nodes weight;                        ///< [nodes][nn] w
   Nodes along;                         ///< [nodes][nn] d, 1/m
   std::vector<double> distance;        ///< [nn] from the head, m
@@ -89,7 +91,8 @@ struct Bolts {
   double work_pending = 0.0;  ///< J: work yet to be counted in the current step, because velocities
                               ///< or bolts changed at n
   int most_increments = 0;    ///< of Newton's method for one bolt in the last step
-  std::vector<NodeVectors> on_host;  ///< [nn] forces of node, bar and dowel on its host, N
+  std::vector<NodeVectors> on_host;  ///< [nn] forces of node, bar and dowel on the points that
+                                     ///< carry it, N
 
   std::vector<Id> place;        ///< [nb] index into `block_begin`, or no_id; empty without bolts
   std::vector<Id> block_begin;  ///< [blocks with nodes + 1]
@@ -126,8 +129,12 @@ void add_bolts(Bolts& bolts, const Bolts& more, const Model& model, std::size_t 
 /// Fills what follows from the other arrays: data of the rows, lists by block, working arrays.
 void complete_bolts(Bolts& bolts, const Model& model, std::size_t blocks);
 
+/// Where the points are that carry node k.
+NodeVectors carriers_at(const Bolts& bolts, const BlockSet& blocks, const State& state,
+                        std::size_t k);
+
 /// Bar k in its present position.
-BarFrame bar_frame(const Bolts& bolts, const State& state, std::size_t k);
+BarFrame bar_frame(const Bolts& bolts, const BlockSet& blocks, const State& state, std::size_t k);
 
 /// Whether node k lies in excavated rock, so that the bolt has nothing to hold there.
 inline bool is_cut_off(const Bolts& bolts, const State& state, std::size_t k) {
@@ -135,14 +142,14 @@ inline bool is_cut_off(const Bolts& bolts, const State& state, std::size_t k) {
 }
 
 /// Present position of node k, slip included.
-Vec2 node_place(const Bolts& bolts, const State& state, std::size_t k);
+Vec2 node_place(const Bolts& bolts, const BlockSet& blocks, const State& state, std::size_t k);
 
 /// Computes slips and forces at the present positions of the nodes, and accounts for yield and
 /// rupture. Bars with an end in excavated blocks carry nothing.
-void update_bolts(Bolts& bolts, const State& state);
+void update_bolts(Bolts& bolts, const BlockSet& blocks, const State& state);
 
-/// Adds the forces of the bolts on block i.
-void add_bolts(NodeVectors& on_nodes, const Bolts& bolts, std::size_t i);
+/// Adds the forces of the bolts on a block, N.
+void add_bolts(BlockForces& on, const Bolts& bolts);
 
 /// Stored energy in the terms of the energy balance, sum of F_{n-1} F_n / 2k, plus
 /// Bolts::work_pending, J.

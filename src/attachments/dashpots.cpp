@@ -4,10 +4,33 @@
 #include <cmath>
 
 #include "attachments/edges_on_line.hpp"
-#include "blocks/kinematics.hpp"
 
 namespace edda {
 namespace {
+
+/// Adds those of a piece of an edge of a meshed block, which has the dashpot `at` per length along
+/// all of it: each corner has the part that the mean of its weight gives it.
+void add_at_corners(const BlockSet& b, const Piece& piece, Dashpot at,
+                    std::vector<Dashpot>& points) {
+  const Id v = piece.edge, end = b.next[v];
+  const Vec2 a = b.vertex(v), u = b.vertex(end) - a;
+  const Part part = piece.part;
+  const double mean = 0.5 * (part.from + part.to),
+               border = part.from + (1.0 - mean) * (part.to - part.from);
+  for (const auto& [corner, of] :
+       {std::pair{v, Part{part.from, border}}, {end, Part{border, part.to}}}) {
+    const double length = (of.to - of.from) * norm(u);
+    Dashpot own = at;
+    own.weight = weights_of(b.weight, corner);
+    own.cxx *= length;
+    own.cyy *= length;
+    own.cxy *= length;
+    own.length = length;
+    own.node = b.meshes.begin[at.block] + corner - b.vertex_begin[at.block];
+    own.middle = a + 0.5 * (of.from + of.to) * u;
+    points.push_back(own);
+  }
+}
 
 /// Adds the two dashpots of a piece of an edge.
 void add_points(const BlockSet& b, const Boundary& boundary, Index row, const Piece& piece,
@@ -22,14 +45,24 @@ void add_points(const BlockSet& b, const Boundary& boundary, Index row, const Pi
   const double s_speed =
       boundary.wave_speeds ? boundary.wave_speeds->y : std::sqrt(b.lame_mu[i] / density);
   const double length = (piece.part.to - piece.part.from) * norm(u);
-  const double half = 0.5 * b.thickness * length * density;
+  const bool meshed = b.is_meshed(i);
+  // Of a meshed block per length.
+  const double half = meshed ? b.thickness * density : 0.5 * b.thickness * length * density;
   const double cn = half * p_speed, ct = half * s_speed;
+  Dashpot point{i,
+                {},
+                cn * n.x * n.x + ct * t.x * t.x,
+                cn * n.y * n.y + ct * t.y * t.y,
+                cn * n.x * n.y + ct * t.x * t.y,
+                row,
+                0.5 * length,
+                n};
+  if (meshed) return add_at_corners(b, piece, point, points);
   const double middle = 0.5 * (piece.part.from + piece.part.to);
   const double off = 0.5 * (piece.part.to - piece.part.from) / std::sqrt(3.0);
   for (const double s : {middle - off, middle + off}) {
-    points.push_back({i, weights_at(b, i, a + s * u), cn * n.x * n.x + ct * t.x * t.x,
-                      cn * n.y * n.y + ct * t.y * t.y, cn * n.x * n.y + ct * t.x * t.y, row,
-                      0.5 * length, n});
+    point.weight = weights_at(b, i, a + s * u);
+    points.push_back(point);
   }
 }
 
@@ -55,7 +88,9 @@ Result<Dashpots> attach_dashpots(const Model& model, const BlockSet& b) {
   }
   if (!faults.empty()) return faults;
   std::stable_sort(dashpots.points.begin(), dashpots.points.end(),
-                   [](const Dashpot& x, const Dashpot& y) { return x.block < y.block; });
+                   [](const Dashpot& x, const Dashpot& y) {
+                     return x.block != y.block ? x.block < y.block : x.node < y.node;
+                   });
   for (std::size_t p = 0; p < dashpots.points.size(); ++p) {
     const Id i = dashpots.points[p].block;
     if (!dashpots.blocks.empty() && dashpots.blocks.back() == i) continue;

@@ -7,7 +7,7 @@
 
 #include "attachments/loads.hpp"
 #include "base/fault.hpp"
-#include "blocks/block_set.hpp"
+#include "blocks/kinematics.hpp"
 #include "model/model.hpp"
 
 namespace edda {
@@ -15,7 +15,9 @@ namespace edda {
 /// A dashpot on a material point of a block. Its force on the point is -C (v - r), with the
 /// velocity v of the point and the reference velocity r. Two such points (Gauss) integrate the
 /// traction of a viscous boundary, -rho c_p (v - r)_n - rho c_s (v - r)_s, over the part of an edge
-/// that lies on it; this is exact, since the velocity is linear along an edge.
+/// that lies on it; this is exact, since the velocity is linear along an edge. A meshed block has
+/// them at its corners instead, which are nodes of its mesh, so that they are lumped as its mass
+/// is.
 struct Dashpot {
   Id block;
   NodeWeights weight;    ///< area coordinates of the point
@@ -23,9 +25,17 @@ struct Dashpot {
   Index boundary;        ///< row of Model::boundaries
   double length;         ///< tributary length of the point, m
   Vec2 normal;           ///< outward, at the start
+  Id node = no_id;       ///< of all meshes; no_id: the block has none
+  Vec2 middle{};         ///< of the tributary length of a node, at the start, m
 };
 
-/// All dashpots, sorted by block.
+/// Where its block takes the point of a dashpot; of velocities, its velocity.
+inline Vec2 point_at(const BlockSet& b, const BodyVectors& u, const Dashpot& at) {
+  const Vec2 affine = weighted(at.weight, u, at.block);
+  return at.node == no_id ? affine : affine + u.modes[b.bending.modes() + at.node];
+}
+
+/// All dashpots, sorted by block and node.
 struct Dashpots {
   std::vector<Dashpot> points;
   std::vector<Id> blocks;          ///< blocks that have any, ascending

@@ -44,7 +44,8 @@ double height_of(const Dashpot& at, const BlockSet& b) {
 /// Extends a side by the piece of face around a point at height y.
 void extend(Side& side, const Dashpot& at, double y) {
   // Each piece of a face has two points, each with half of its length, 1/sqrt(3) of it apart.
-  const double reach = at.length * (1.0 - 1.0 / std::sqrt(3.0));
+  const double reach =
+      at.node == no_id ? at.length * (1.0 - 1.0 / std::sqrt(3.0)) : 0.5 * at.length;
   side.bottom = std::min(side.bottom, y - reach);
   side.top = std::max(side.top, y + reach);
   side.shortest = std::min(side.shortest, 2.0 * at.length);
@@ -65,7 +66,8 @@ Sides find_sides(const Model& model, const BlockSet& b, const Dashpots& dashpots
     sides.of_point[p] = {at.boundary, at.normal.x > 0.0 ? 1 : 0};
     field.height[p] = height_of(at, b);
     field.face[p] = at.length * b.thickness;
-    extend(sides.by_key[sides.of_point[p]], at, field.height[p]);
+    field.middle[p] = at.node == no_id ? field.height[p] : at.middle.y;
+    extend(sides.by_key[sides.of_point[p]], at, field.middle[p]);
   }
   for (auto& [key, side] : sides.by_key) std::sort(side.blocks.begin(), side.blocks.end());
   return sides;
@@ -168,7 +170,7 @@ FreeField attach_free_field(const Model& model, const BlockSet& b, const Dashpot
   FreeField field;
   field.column.assign(dashpots.points.size(), none);
   field.height.assign(dashpots.points.size(), 0.0);
-  field.face.assign(dashpots.points.size(), 0.0);
+  field.middle = field.face = field.height;
   const Sides sides = find_sides(model, b, dashpots, field);
   std::map<SideKey, Index> number;
   for (const auto& [key, side] : sides.by_key) {

@@ -46,7 +46,8 @@ struct FreeFieldDrive {
 struct FreeField {
   std::vector<FreeFieldColumn> columns;
   std::vector<Index> column;   ///< [points of Dashpots] or none
-  std::vector<double> height;  ///< [points] y, m
+  std::vector<double> height;  ///< [points] y, m, at which the column moves beside them
+  std::vector<double> middle;  ///< [points] y, m, at which its stress acts on them
   std::vector<double> face;    ///< [points] tributary area of the point on the side, m2
   bool empty() const { return columns.empty(); }
   /// Largest step of the columns, s: 0.9 D/c_p; infinite without columns.

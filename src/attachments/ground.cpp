@@ -57,9 +57,9 @@ GroundStep next_ground(const Model& model, const Loads& loads, const Ground& gro
   return next;
 }
 
-void place_fixed(const BlockSet& b, const Ground& ground, Vec2 shift, Nodes& x, Nodes& y) {
+void place_fixed(const BlockSet& b, const Ground& ground, Vec2 shift, BodyVectors& position) {
   for (const Id i : ground.fixed_blocks) {
-    store(vectors_of(b.node_x, b.node_y, i) + at_every_node(shift), x, y, i);
+    store(vectors_of(b.node_x, b.node_y, i) + at_every_node(shift), position, i);
   }
 }
 

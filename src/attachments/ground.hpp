@@ -39,6 +39,6 @@ GroundStep next_ground(const Model& model, const Loads& loads, const Ground& gro
                        const BoundarySprings& springs, double time, double h_old, double h_new);
 
 /// Moves the nodes of the fixed blocks with the ground.
-void place_fixed(const BlockSet& blocks, const Ground& ground, Vec2 shift, Nodes& x, Nodes& y);
+void place_fixed(const BlockSet& blocks, const Ground& ground, Vec2 shift, BodyVectors& position);
 
 }  // namespace edda

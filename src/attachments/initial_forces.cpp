@@ -39,6 +39,14 @@ std::vector<Piece> newly_supported(const Model& model, const BlockSet& b, const 
   return mine;
 }
 
+/// Adds what holds a piece of a face in the initial stress.
+void add_wall(std::vector<WallForce>& forces, const BlockSet& b, const FaceForces& faces,
+              const Piece& p, Index owner) {
+  const EndForces on = on_vertices(p.part.from, p.part.to, faces.on(p.edge, p.part));
+  forces.push_back({p.edge, on.at_from, owner});
+  forces.push_back({b.next[p.edge], on.at_to, owner});
+}
+
 }  // namespace
 
 FaceForces::FaceForces(const BlockSet& blocks, const StressField& field, const LoadsNow& at_start)
@@ -68,15 +76,29 @@ std::vector<WallForce> supported_initial_stress(const Model& model, const BlockS
       const auto owner = static_cast<Index>(model.openings.size() + q);
       for (const Piece& p : newly_supported(model, b, boundary, supported)) {
         if (!keeps) continue;
-        const EndForces on = on_vertices(p.part.from, p.part.to, faces.on(p.edge, p.part));
-        forces.push_back({p.edge, on.at_from, owner});
-        forces.push_back({b.next[p.edge], on.at_to, owner});
+        add_wall(forces, b, faces, p, owner);
       }
     }
   };
   each(has_springs, true);
   each([](BoundaryType type) { return type == BoundaryType::stress; }, false);
   each(has_dashpots, true);
+  return forces;
+}
+
+std::vector<WallForce> initial_wall_forces(const Model& model, const BlockSet& b,
+                                           const FaceForces& faces) {
+  std::vector<WallForce> forces;
+  for (std::size_t q = 0; q < model.openings.size(); ++q) {
+    if (model.openings[q].staged) continue;
+    const Ring& ring = model.openings[q].polygon;
+    std::vector<Line> lines;
+    for (std::size_t k = 0; k < ring.size(); ++k)
+      lines.push_back({ring[k] - b.origin, ring[(k + 1) % ring.size()] - b.origin});
+    bool in_joints = false;
+    for (const Piece& p : pieces_on(b, lines, WhichFaces::open, boundary_snap(model, b), in_joints))
+      add_wall(forces, b, faces, p, static_cast<Index>(q));
+  }
   return forces;
 }
 
@@ -95,20 +117,20 @@ void load_initial_stress(Loads& loads, const Model& model, const BlockSet& b,
 }
 
 ModeVectors initial_mode_forces(const BlockSet& b, const StressField& field) {
-  ModeVectors on;
-  on.assign(b.bending.modes(), 0.0);
+  BodyVectors on = zero_vectors(b);
   const LoadsNow no_water;
   const FaceForces faces(b, field, no_water);
   for (std::size_t i = 0; i < b.size(); ++i) {
-    const BlockModes modes = b.modes(i);
-    const Id first = b.vertex_begin[i];
-    for (Id e = first; modes.count > 0 && e < b.vertex_begin[i + 1]; ++e) {
+    if (!b.bends(i)) continue;
+    BlockForces of_block{b, i};
+    for (Id e = b.vertex_begin[i]; e < b.vertex_begin[i + 1]; ++e) {
       const EndForces all = faces.on(e, {0.0, 1.0});
-      modes.spread(on, e - first, all.at_from);
-      modes.spread(on, b.next[e] - first, all.at_to);
+      of_block.bend_at(e, all.at_from);
+      of_block.bend_at(b.next[e], all.at_to);
     }
+    store(of_block.sum, b, on, i);
   }
-  return on;
+  return on.modes;
 }
 
 }  // namespace edda

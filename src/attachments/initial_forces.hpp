@@ -31,6 +31,11 @@ std::vector<WallForce> supported_initial_stress(const Model& model, const BlockS
                                                 const ActiveIntervals& intervals,
                                                 const FaceForces& faces);
 
+/// Forces of the initial stress on the walls of the openings that are there from the start, of
+/// the rock that was in them.
+std::vector<WallForce> initial_wall_forces(const Model& model, const BlockSet& blocks,
+                                           const FaceForces& faces);
+
 /// Gives boundaries of type stress without a traction that of the initial stress.
 void load_initial_stress(Loads& loads, const Model& model, const BlockSet& blocks,
                          const FaceForces& faces);

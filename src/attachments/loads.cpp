@@ -149,8 +149,7 @@ void add_loads(BlockForces& on, const LoadsNow& now, const std::vector<double>& 
   for (Id q = r.point_begin; q < r.point_end; ++q) {
     const PointLoad& p = l.points[q];
     const double factor = now.factor[static_cast<std::size_t>(p.load)];
-    on.at_point(p.weight, p.force, factor);
-    if (p.vertex != no_id) on.bend_at(p.vertex, factor * p.force);
+    push(on, p.at, p.force, factor);
   }
   for (Id q = r.edge_begin; q < r.edge_end; ++q) {
     const EdgeLoad& e = l.edges[q];
@@ -195,8 +194,8 @@ Vec2 load_on(const BlockSet& b, const LoadsNow& now, const Pose& pose, std::size
   add_loads(f, now, pose.x, pose.y);
   constexpr double rounding = 1e-12;
   double sum = 0.0;
-  for (const Vec2 of_node : f.nodes) sum += norm(of_node);
-  const Vec2 all = resultant(f.nodes);
+  for (const Vec2 of_node : f.sum.nodes) sum += norm(of_node);
+  const Vec2 all = resultant(f.sum.nodes);
   return norm(all) > rounding * sum ? all : Vec2{};  // loads that balance leave their rounding
 }
 

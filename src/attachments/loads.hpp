@@ -10,6 +10,7 @@
 
 #include "attachments/bolts.hpp"
 #include "base/fault.hpp"
+#include "blocks/block_point.hpp"
 #include "blocks/initial_stress.hpp"
 #include "blocks/pose.hpp"
 #include "cutting/polygon_set.hpp"
@@ -19,11 +20,9 @@ namespace edda {
 
 /// A force of constant direction on a material point.
 struct PointLoad {
-  Id block;
-  NodeWeights weight;  ///< weights of the nodes at the point
-  Vec2 force;          ///< N
-  Index load;          ///< row of Model::loads, or that of an owner (keep_wall_forces())
-  Id vertex = no_id;   ///< the vertex that it acts on; no_id: a point inside the block
+  BlockPoint at;
+  Vec2 force;  ///< N
+  Index load;  ///< row of Model::loads, or that of an owner (keep_wall_forces())
 };
 
 /// Traction or pressure on the part of an edge from s = from to s = to (0: its first vertex, 1: its

@@ -37,8 +37,9 @@ inline std::size_t in_groups(std::size_t blocks) {
   return (blocks + group_size - 1) / group_size * group_size;
 }
 
-/// Numbers of the modes of all blocks, at the places that BlockModes names; 0 where a block has
-/// fewer modes than others of its group.
+/// Numbers of the modes of all blocks, at the places that BlockModes names: those of the groups,
+/// with 0 where a block has fewer modes than others of its group, then those of the meshes, of
+/// which each node is a mode (meshes.hpp).
 struct ModeVectors {
   std::vector<double> x, y;
   std::size_t size() const { return x.size(); }
@@ -70,7 +71,7 @@ struct Bending {
   std::array<ModeVectors, bendings> axis;          ///< [4][places] e_b; 0: none
   std::array<std::vector<double>, bendings> less;  ///< [4][in_groups(nb)] less_b, N/m
 
-  /// The number of places.
+  /// The number of places of the groups.
   std::size_t modes() const { return stiffness.size(); }
   bool any() const { return !stiffness.empty(); }
   /// The number of modes of block i.
@@ -86,28 +87,47 @@ struct Bending {
 inline constexpr std::size_t most_corners_that_bend = 48;
 inline constexpr std::size_t most_modes = most_corners_that_bend - 3;
 
-/// `count` modes from the place `first` on: of a block, or of the eight of a group.
+/// `count` modes from the place `first` on: of a block in a group, or of all eight.
 struct ModePlaces {
   std::size_t first, count;
   /// The place of mode a.
   std::size_t operator[](std::size_t a) const { return first + group_size * a; }
 };
 
+/// Numbers of the modes of one block (T = double), or of all of a group (T = Eight).
+template <class T>
+struct ModeArray {
+  T x[most_modes], y[most_modes];
+  Vec2 operator[](std::size_t a) const { return {x[a], y[a]}; }
+  void set(std::size_t a, Vec2 v) {
+    x[a] = v.x;
+    y[a] = v.y;
+  }
+};
+using ModesOfBlock = ModeArray<double>;
+
 /// The modes of one block, and their shapes at its corners.
 struct BlockModes : ModePlaces {
-  const double* shape;  ///< [corners][count]
+  const double* shape;  ///< [corners][count]; of a mesh null: its first modes are its corners
   std::size_t corners;
+  const double* share = nullptr;  ///< [count] of a mesh: of its nodes (meshes.hpp)
+
+  bool of_mesh() const { return share != nullptr; }
+  /// The place of mode a.
+  std::size_t operator[](std::size_t a) const { return first + (of_mesh() ? 1 : group_size) * a; }
   /// h_a at the corner `at`, counted from the block's first.
-  double of(std::size_t a, std::size_t at) const { return shape[at * count + a]; }
+  double of(std::size_t a, std::size_t at) const {
+    if (of_mesh()) return a == at ? 1.0 : 0.0;
+    return shape[at * count + a];
+  }
+  /// The mass of mode a, over 1/Masses::mode_inverse.
+  double mass(std::size_t a) const { return of_mesh() ? share[a] : 1.0; }
   /// sum_a h_a v_a at a corner.
   Vec2 at(const ModeVectors& v, std::size_t corner) const {
+    if (of_mesh()) return v[first + corner];
     Vec2 sum;
     for (std::size_t a = 0; a < count; ++a) sum += of(a, corner) * v[(*this)[a]];
     return sum;
-  }
-  /// Adds a force on a corner to those on the modes.
-  void spread(ModeVectors& on, std::size_t corner, Vec2 force) const {
-    for (std::size_t a = 0; a < count; ++a) on.add((*this)[a], of(a, corner) * force);
   }
   /// The sum of the squares of the shapes at a corner, and their product at two.
   double product(std::size_t corner, std::size_t other) const {
@@ -139,18 +159,6 @@ EDDA_INLINE void with_count(std::size_t count, Body body) {
       return body(count);
   }
 }
-
-/// Numbers of the modes of one block (T = double), or of all of a group (T = Eight).
-template <class T>
-struct ModeArray {
-  T x[most_modes], y[most_modes];
-  Vec2 operator[](std::size_t a) const { return {x[a], y[a]}; }
-  void set(std::size_t a, Vec2 v) {
-    x[a] = v.x;
-    y[a] = v.y;
-  }
-};
-using ModesOfBlock = ModeArray<double>;
 
 // Vectors are passed between inlined functions alone.
 #pragma GCC diagnostic push

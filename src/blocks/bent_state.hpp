@@ -14,6 +14,11 @@ EDDA_INLINE Vec2 turned(const Rotation& r, Vec2 v) {
   return {r.c * v.x - r.s * v.y, r.s * v.x + r.c * v.y};
 }
 
+/// w of the rotation r, 1/s, at the rate l of F.
+EDDA_INLINE double spin_of(const Rotation& r, const Deformation& l) {
+  return (r.c * (l.yx - l.xy) - r.s * (l.xx + l.yy)) * r.inverse;
+}
+
 /// s_a = R^T q_a, and with g = K s + g0 (g0 locked) the forces -R g_a on the modes.
 struct BentState {
   BlockModes modes;

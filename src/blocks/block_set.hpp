@@ -12,6 +12,7 @@
 
 #include "base/vec2.hpp"
 #include "blocks/bending.hpp"
+#include "blocks/meshes.hpp"
 #include "blocks/nodes.hpp"
 #include "model/model.hpp"
 
@@ -57,6 +58,7 @@ struct BlockSet {
                       ///< reentrant, 1 and 0 where the outline is straight within 0.18 degrees
 
   Bending bending;  ///< modes of the blocks that bend
+  Meshes meshes;    ///< of the blocks that are meshed
 
   // Read for building and output.
   Nodes node_x, node_y;  ///< [nodes][nb] the cover's nodes X_k at the start, m
@@ -81,9 +83,28 @@ struct BlockSet {
 
   /// Position of vertex v at the start, m.
   Vec2 vertex(std::size_t v) const { return {vertex_x[v], vertex_y[v]}; }
+  /// Whether the corners of block i move beside its nodes.
+  bool bends(std::size_t i) const { return bending.modes_of(i) > 0; }
+  bool is_meshed(std::size_t i) const { return meshes.nodes_of(i) > 0; }
+  /// The number of modes of block i: of its bending, or of its mesh.
+  std::size_t count_modes(std::size_t i) const { return bending.modes_of(i) + meshes.nodes_of(i); }
+  /// The number of places of modes of all blocks.
+  std::size_t mode_places() const { return bending.modes() + meshes.nodes(); }
   /// The modes of block i.
   BlockModes modes(std::size_t i) const {
-    return modes_of(bending, i, vertex_begin[i + 1] - vertex_begin[i]);
+    const std::size_t corners = vertex_begin[i + 1] - vertex_begin[i];
+    if (!is_meshed(i)) return modes_of(bending, i, corners);
+    const std::size_t node = meshes.begin[i];
+    return {
+        {bending.modes() + node, meshes.nodes_of(i)}, nullptr, corners, meshes.share.data() + node};
+  }
+  /// Calls body(first, last) for the ranges of the places of the modes of the blocks [begin, end),
+  /// which are whole groups.
+  template <class Body>
+  void for_mode_places(std::size_t begin, std::size_t end, Body body) const {
+    if (bending.any()) body(bending.begin_of_group(begin), bending.begin_of_group(end));
+    if (meshes.any())
+      body(bending.modes() + meshes.begin[begin], bending.modes() + meshes.begin[end]);
   }
   /// Name of block i, empty where it has none.
   std::string_view name(std::size_t i) const {

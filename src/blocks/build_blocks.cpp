@@ -8,6 +8,7 @@
 #include "blocks/cover.hpp"
 #include "blocks/kinematics.hpp"
 #include "cutting/triangulate.hpp"
+#include "cutting/zone_size.hpp"
 
 namespace edda {
 namespace {
@@ -130,6 +131,20 @@ void add_modes(BlockSet& b, const Moments& m, std::size_t i) {
                         b.lame_mu[i], b.thickness});
 }
 
+/// How the last block deforms beside its uniform strain.
+void add_deformation(BlockSet& b, const Model& model, const BlockPolygon& polygon, const Moments& m,
+                     const ZoneSizes& sizes) {
+  if (const std::size_t i = b.area.size() - 1; bends(model, polygon, b, i)) {
+    add_modes(b, m, i);
+  } else {
+    add_no_modes(b.bending);
+  }
+  if (!may_be_meshed(model, polygon)) return add_no_mesh(b.meshes);
+  Mesh mesh = mesh_polygon(polygon.rings, sizes.of(polygon));
+  for (Vec2& node : mesh.nodes) node -= m.centroid;
+  add_mesh(b.meshes, {mesh.nodes, mesh.triangles});
+}
+
 /// Reserves exact sizes, so that no array ends with excess capacity.
 void reserve(BlockSet& b, const std::vector<BlockPolygon>& polygons) {
   const std::size_t nb = polygons.size();
@@ -158,15 +173,26 @@ void reserve(BlockSet& b, const std::vector<BlockPolygon>& polygons) {
 
 }  // namespace
 
+namespace {
+
+BlockDeformation deformation_of(const Model& model, const BlockPolygon& block) {
+  if (model.contact.model != ContactModel::faces || block.fixed || block.material == none)
+    return BlockDeformation::uniform;
+  const Material& material = model.materials[static_cast<std::size_t>(block.material)];
+  if (material.deformation != BlockDeformation::automatic) return material.deformation;
+  if (material.yield || material.foliation) return BlockDeformation::zones;
+  if (model.deformation != BlockDeformation::automatic) return model.deformation;
+  return model.zones ? BlockDeformation::zones : BlockDeformation::corners;
+}
+
+}  // namespace
+
+bool may_be_meshed(const Model& model, const BlockPolygon& block) {
+  return deformation_of(model, block) == BlockDeformation::zones;
+}
+
 bool may_bend(const Model& model, const BlockPolygon& block) {
-  if (model.contact.model != ContactModel::faces || block.fixed) return false;
-  const BlockDeformation of_material =
-      block.material == none
-          ? BlockDeformation::automatic
-          : model.materials[static_cast<std::size_t>(block.material)].deformation;
-  const BlockDeformation chosen =
-      of_material == BlockDeformation::automatic ? model.deformation : of_material;
-  return chosen != BlockDeformation::uniform;
+  return deformation_of(model, block) == BlockDeformation::corners;
 }
 
 BlockSet build_blocks(const Model& model, const PolygonSet& polygons) {
@@ -176,6 +202,7 @@ BlockSet build_blocks(const Model& model, const PolygonSet& polygons) {
   b.thickness = model.thickness;
   b.mass_kind = model.solver.mass;
   reserve(b, polygons.blocks);
+  const ZoneSizes sizes(model, polygons);
   b.vertex_begin.push_back(0);
   for (const BlockPolygon& polygon : polygons.blocks) {
     const Moments m = moments(polygon.rings);
@@ -216,32 +243,27 @@ BlockSet build_blocks(const Model& model, const PolygonSet& polygons) {
     }
     if (!polygon.name.empty()) b.names[static_cast<Id>(b.area.size() - 1)] = polygon.name;
     b.vertex_begin.push_back(static_cast<Id>(b.vertex_block.size()));
-    if (const std::size_t i = b.area.size() - 1; bends(model, polygon, b, i)) {
-      add_modes(b, m, i);
-    } else {
-      add_no_modes(b.bending);
-    }
+    add_deformation(b, model, polygon, m, sizes);
   }
   if (!b.bending.any()) b.bending = {};
+  if (!b.meshes.any()) b.meshes = {};
   return b;
 }
 
 State initial_state(const BlockSet& b, const PolygonSet& polygons) {
   State s;
   const std::size_t nb = b.size();
-  s.from_x = s.x = b.node_x;
-  s.from_y = s.y = b.node_y;
-  s.vx = s.vy = zero_nodes(nb);
+  s.velocity = s.position = zero_vectors(b);
+  s.position.x = b.node_x;
+  s.position.y = b.node_y;
+  s.reference = s.position;
   for (std::size_t i = 0; i < nb; ++i) {
     const BlockPolygon& p = polygons.blocks[i];
     if (p.fixed) continue;
     const Vec2 centre{b.centroid_x[i], b.centroid_y[i]};
-    store(rigid_velocities(vectors_of(s.x, s.y, i), centre, p.velocity, p.angular_velocity), s.vx,
-          s.vy, i);
+    store(rigid_velocities(vector_of(b, s.position, i), centre, p.velocity, p.angular_velocity), b,
+          s.velocity, i);
   }
-  s.bend.assign(b.bending.modes(), 0.0);
-  s.bend_rate.assign(b.bending.modes(), 0.0);
-  s.from_bend = s.bend;
   s.alive.assign(nb, 1);
   s.turns.assign(nb, 0);
   return s;

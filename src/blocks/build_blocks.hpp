@@ -8,6 +8,8 @@
 
 namespace edda {
 
+/// Whether a block of the model is meshed (blocks/meshes.hpp).
+bool may_be_meshed(const Model& model, const BlockPolygon& block);
 /// Whether a block of the model may bend (blocks/bending.hpp): if it has more than three corners.
 bool may_bend(const Model& model, const BlockPolygon& block);
 

@@ -18,11 +18,10 @@ void add_to_free(const BlockSet& b, const State& s, const ForcesToAdd& forces, s
   complete_all(free_forces(forces, free), begin, end);
 }
 
-void add_to_modes(const BlockSet& b, const ModeVectors& on, ModeVectors& forces, std::size_t begin,
-                  std::size_t end) {
-  if (!b.bending.any()) return;
-  for (std::size_t m = b.bending.begin_of_group(begin); m < b.bending.begin_of_group(end); ++m)
-    forces.add(m, on[m]);
+void add_to_modes(const BlockSet& b, const ForcesToAdd& f, std::size_t begin, std::size_t end) {
+  b.for_mode_places(begin, end, [&](std::size_t first, std::size_t last) {
+    for (std::size_t m = first; m < last; ++m) f.forces.modes.add(m, f.on.modes[m]);
+  });
 }
 
 }  // namespace edda

@@ -27,10 +27,10 @@ class FreeMarks {
   std::array<double, blocks_at_once> marks_;
 };
 
-/// Nodal forces, and those `on` the same nodes that are yet to be added to them, [nodes][nb], N.
+/// Forces, and those `on` the same blocks that are yet to be added to them, N.
 struct ForcesToAdd {
-  const Nodes &on_x, &on_y;
-  Nodes &x, &y;
+  const BodyVectors& on;
+  BodyVectors& forces;
 };
 
 /// The same, for the loops over the blocks of some marks.
@@ -51,17 +51,17 @@ struct FreeForces {
   }
 };
 inline FreeForces free_forces(const ForcesToAdd& f, const FreeMarks& marks) {
-  return {values_of(f.on_x), values_of(f.on_y), values_of(f.x),
-          values_of(f.y),    marks.data(),      marks.begin()};
+  return {values_of(f.on.x),     values_of(f.on.y), values_of(f.forces.x),
+          values_of(f.forces.y), marks.data(),      marks.begin()};
 }
 
-/// Adds them on the blocks [begin, end), not more than blocks_at_once; those that are not free have
-/// no force.
+/// Adds them on the nodes of the blocks [begin, end), not more than blocks_at_once; those that are
+/// not free have no force.
 void add_to_free(const BlockSet& blocks, const State& state, const ForcesToAdd& forces,
                  std::size_t begin, std::size_t end);
 
-/// Adds the forces `on` the modes of the blocks [begin, end); those that are not free have none.
-void add_to_modes(const BlockSet& blocks, const ModeVectors& on, ModeVectors& forces,
-                  std::size_t begin, std::size_t end);
+/// The same on their modes, also of blocks that are not free: advance_modes() does not move these.
+void add_to_modes(const BlockSet& blocks, const ForcesToAdd& forces, std::size_t begin,
+                  std::size_t end);
 
 }  // namespace edda

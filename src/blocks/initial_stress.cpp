@@ -138,8 +138,13 @@ Tensor StressField::at(Vec2 point) const {
   return {*s.k0 * vertical, vertical, 0.0};
 }
 
-void set_initial_stress(BlockSet& b, const Model& model, const StressField& field) {
+double out_of_plane_stress(const Model& model, const Material& material, const Tensor& t) {
   const InitialStress& given = *model.initial_stress;
+  if (model.plane == Plane::stress) return 0.0;
+  return given.k0_out ? *given.k0_out * t.yy : material.poisson * (t.xx + t.yy);
+}
+
+void set_initial_stress(BlockSet& b, const Model& model, const StressField& field) {
   for (auto* values : {&b.initial_xx, &b.initial_yy, &b.initial_xy, &b.initial_zz}) {
     values->resize(b.size());
   }
@@ -148,10 +153,8 @@ void set_initial_stress(BlockSet& b, const Model& model, const StressField& fiel
     b.initial_xx[i] = t.xx;
     b.initial_yy[i] = t.yy;
     b.initial_xy[i] = t.xy;
-    const double poisson = model.materials[static_cast<std::size_t>(b.material[i])].poisson;
-    b.initial_zz[i] = model.plane == Plane::stress ? 0.0
-                      : given.k0_out               ? *given.k0_out * t.yy
-                                                   : poisson * (t.xx + t.yy);
+    b.initial_zz[i] =
+        out_of_plane_stress(model, model.materials[static_cast<std::size_t>(b.material[i])], t);
   }
 }
 

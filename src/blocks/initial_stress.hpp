@@ -45,8 +45,11 @@ class StressField {
   double low_ = 0.0, high_ = 0.0;  ///< m, extent in x
 };
 
-/// Fills BlockSet::initial_* with the field's value at each block's centroid. The out-of-plane
-/// stress is k0_out syy, without k0_out nu (sxx + syy), and 0 in plane stress.
+/// Out-of-plane stress at the start where the stress in the plane is t, Pa: k0_out syy, without
+/// k0_out nu (sxx + syy), and 0 in plane stress.
+double out_of_plane_stress(const Model& model, const Material& material, const Tensor& t);
+
+/// Fills BlockSet::initial_* with the field's value at each block's centroid.
 void set_initial_stress(BlockSet& blocks, const Model& model, const StressField& field);
 
 /// Initial stress of block i, Pa; 0 where there is none.

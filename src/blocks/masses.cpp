@@ -3,6 +3,7 @@
 #include <array>
 
 #include "blocks/cover.hpp"
+#include "blocks/kinematics.hpp"
 
 namespace edda {
 namespace {
@@ -58,15 +59,67 @@ double mass_product(const Masses& masses, std::size_t i, const NodeVectors& u,
          dot(u[2], m[2] * v[0] + m[4] * v[1] + m[5] * v[2]);
 }
 
-double kinetic_energy(const Masses& masses, const Nodes& vx, const Nodes& vy, std::size_t i) {
-  const NodeVectors v = vectors_of(vx, vy, i);
-  return 0.5 * mass_product(masses, i, v, v);
+BodyVector accelerations(const Masses& masses, const BlockSet& b, std::size_t i,
+                         const BodyVector& f) {
+  BodyVector a(f.count);
+  a.nodes = accelerations(masses, i, f.nodes);
+  if (!b.is_meshed(i)) {
+    for (std::size_t m = 0; m < f.count; ++m) a.modes.set(m, masses.mode_inverse[i] * f.modes[m]);
+    return a;
+  }
+  const std::size_t first = b.meshes.begin[i];
+  AffinePart common;
+  for (std::size_t m = 0; m < f.count; ++m) b.meshes.add(common, first + m, f.modes[m]);
+  common = b.meshes.solve(i, common);
+  for (std::size_t m = 0; m < f.count; ++m) {
+    const Vec2 own = f.modes[m] / b.meshes.share[first + m] - b.meshes.at(common, first + m);
+    a.modes.set(m, masses.mode_inverse[i] * own);
+  }
+  return a;
 }
 
-double kinetic_energy(const Masses& masses, const BlockSet& b, const State& s, std::size_t i) {
-  double energy = kinetic_energy(masses, s.vx, s.vy, i);
+double mass_product(const Masses& masses, const BlockSet& b, std::size_t i, const BodyVector& u,
+                    const BodyVector& v) {
+  double sum = mass_product(masses, i, u.nodes, v.nodes);
+  const BlockModes modes = b.modes(i);
+  for (std::size_t a = 0; a < u.count; ++a)
+    sum += modes.mass(a) * dot(u.modes[a], v.modes[a]) / masses.mode_inverse[i];
+  return sum;
+}
+
+AffinePart beside_lumped(const Masses& masses, const BlockSet& b, std::size_t i,
+                         const AffinePart& p) {
+  NodeVectors f;
+  for (std::size_t k = 0; k < nodes_per_block; ++k)
+    f[k] = p.one / nodes_per_block + b.grad_x[k][i] * p.x + b.grad_y[k][i] * p.y;
+  const AffineMotion exact = affine_motion(b, accelerations(masses, i, f), i);
+  const AffinePart lumped = b.meshes.solve(i, p);
+  const double inverse = masses.mode_inverse[i];
+  return {exact.at - inverse * lumped.one, Vec2{exact.f.xx, exact.f.yx} - inverse * lumped.x,
+          Vec2{exact.f.xy, exact.f.yy} - inverse * lumped.y};
+}
+
+Unbalanced unbalanced_forces(const Masses& masses, const BlockSet& b, const BodyVectors& forces,
+                             std::size_t i) {
+  if (!b.is_meshed(i)) return {norm(resultant(vectors_of(forces, i))), 1};
+  const BodyVector a = accelerations(masses, b, i, vector_of(b, forces, i));
+  const AffineMotion affine = affine_motion(b, a.nodes, i);
+  const Meshes& m = b.meshes;
+  Unbalanced all{0.0, a.count};
+  for (std::size_t j = 0; j < a.count; ++j) {
+    const std::size_t node = m.begin[i] + j;
+    all.sum += m.share[node] / masses.mode_inverse[i] *
+               norm(affine.of(m.arm_x[node], m.arm_y[node]) + a.modes[j]);
+  }
+  return all;
+}
+
+double kinetic_energy(const Masses& masses, const BlockSet& b, const BodyVectors& velocity,
+                      std::size_t i) {
+  const NodeVectors v = vectors_of(velocity, i);
+  double energy = 0.5 * mass_product(masses, i, v, v);
   if (const BlockModes modes = b.modes(i); modes.count > 0)
-    energy += 0.5 * mode_product(modes, s.bend_rate, s.bend_rate) / masses.mode_inverse[i];
+    energy += 0.5 * mode_product(modes, velocity.modes, velocity.modes) / masses.mode_inverse[i];
   return energy;
 }
 
@@ -79,11 +132,11 @@ void fill_point_masses(Masses& m, const BlockSet& b) {
       m.node_inverse[k][i] = m.node[k][i] > 0.0 ? 1.0 / m.node[k][i] : 0.0;
     }
   }
-  m.mode_inverse.assign(b.bending.any() ? in_groups(b.size()) : 0, 0.0);
-  for (std::size_t i = 0; b.bending.any() && i < b.size(); ++i) {
+  m.mode_inverse.assign(b.mode_places() > 0 ? in_groups(b.size()) : 0, 0.0);
+  for (std::size_t i = 0; b.mode_places() > 0 && i < b.size(); ++i) {
     const double inertia = b.fixed[i] ? 0.0 : inertia_of(m, i);
     const auto corners = static_cast<double>(b.vertex_begin[i + 1] - b.vertex_begin[i]);
-    if (inertia > 0.0) m.mode_inverse[i] = corners / inertia;
+    if (inertia > 0.0) m.mode_inverse[i] = b.is_meshed(i) ? 1.0 / inertia : corners / inertia;
   }
   for (std::size_t v = 0; v < b.vertex_count(); ++v) {
     const std::size_t i = b.vertex_block[v];
@@ -94,8 +147,13 @@ void fill_point_masses(Masses& m, const BlockSet& b) {
     const BlockModes modes = b.modes(i);
     if (modes.count == 0) continue;
     const std::size_t at = v - b.vertex_begin[i], other = b.next[v] - b.vertex_begin[i];
-    m.point_inverse[v] += m.mode_inverse[i] * modes.product(at, at);
-    m.edge_inverse[v] += m.mode_inverse[i] * modes.product(at, other);
+    const auto product = [&](std::size_t with) {
+      if (!modes.of_mesh()) return modes.product(at, with);
+      const std::size_t first = b.meshes.begin[i];
+      return b.meshes.inverse_product(i, first + at, first + with);
+    };
+    m.point_inverse[v] += m.mode_inverse[i] * product(at);
+    m.edge_inverse[v] += m.mode_inverse[i] * product(other);
   }
 }
 

@@ -19,8 +19,9 @@ struct Masses {
       inverse;  ///< [6][nb] M^-1, order 11 12 13 22 23 33, 1/kg; `consistent` only
   std::vector<double> point_inverse,
       edge_inverse;  ///< [nv] w_v^T M^-1 w_v and w_v^T M^-1 w_next, 1/kg; 0 where it is fixed
-  std::vector<double> mode_inverse;  ///< [in_groups(nb)] 1/m of each mode, 1/kg; 0 where it is
-                                     ///< fixed; empty where no block bends
+  std::vector<double> mode_inverse;  ///< [in_groups(nb)] 1/m of each mode, of a mesh one over the
+                                     ///< mass of the block, 1/kg; 0 where it is fixed; empty where
+                                     ///< no block has modes
   std::array<std::vector<double>, bendings + 1>
       mode_damping;  ///< [5][in_groups(nb)] 2 zeta w along each e_b, and of the other modes, 1/s;
                      ///< empty where none is damped
@@ -59,17 +60,29 @@ inline NodeVectors accelerations(const Masses& masses, std::size_t i, const Node
 double mass_product(const Masses& masses, std::size_t i, const NodeVectors& u,
                     const NodeVectors& v);
 
-/// sum of u . v over the modes of a block.
-inline double mode_product(const BlockModes& modes, const ModeVectors& u, const ModeVectors& v) {
-  double sum = 0.0;
-  for (std::size_t a = 0; a < modes.count; ++a) sum += dot(u[modes[a]], v[modes[a]]);
-  return sum;
-}
+/// The same of all that block i is made of.
+BodyVector accelerations(const Masses& masses, const BlockSet& blocks, std::size_t i,
+                         const BodyVector& f);
+double mass_product(const Masses& masses, const BlockSet& blocks, std::size_t i,
+                    const BodyVector& u, const BodyVector& v);
 
-/// Kinetic energy of block i, J: of its nodes.
-double kinetic_energy(const Masses& masses, const Nodes& vx, const Nodes& vy, std::size_t i);
-/// The same of nodes and modes, with the velocities of the state.
-double kinetic_energy(const Masses& masses, const BlockSet& blocks, const State& state,
+/// Q p, Q = I^-1 - G^-1 of the mesh of block i (blocks/meshes.hpp): affine acceleration under
+/// forces with the affine part p beside that of the lumped masses, for `x` and `y` per m of the
+/// arm.
+AffinePart beside_lumped(const Masses& masses, const BlockSet& blocks, std::size_t i,
+                         const AffinePart& p);
+
+/// Unbalanced forces: the resultant of those on a block, or on each node of its mesh (its inertia
+/// force).
+struct Unbalanced {
+  double sum = 0.0;  ///< of their magnitudes, N
+  std::size_t count = 0;
+};
+Unbalanced unbalanced_forces(const Masses& masses, const BlockSet& blocks,
+                             const BodyVectors& forces, std::size_t i);
+
+/// Kinetic energy of block i, J, with these velocities (m/s).
+double kinetic_energy(const Masses& masses, const BlockSet& blocks, const BodyVectors& velocity,
                       std::size_t i);
 
 /// Quadratic form of the inverse mass along an edge, 1/kg: w^T M^-1 w at its start, of both ends,

@@ -121,16 +121,4 @@ inline void spread(NodeVectors& on_nodes, const NodeWeights& w, Vec2 force, doub
   for (std::size_t k = 0; k < nodes_per_block; ++k) on_nodes[k] += (factor * w[k]) * force;
 }
 
-/// Whether the vectors of all nodes of block i are finite.
-inline bool is_finite(const Nodes& x, const Nodes& y, std::size_t i) {
-  const Vec2 sum = resultant(vectors_of(x, y, i));
-  return std::isfinite(sum.x + sum.y);
-}
-
-/// Velocities of nodes at x on a rigid body of which `centre` has this velocity; spin in rad/s.
-inline NodeVectors rigid_velocities(NodeVectors x, Vec2 centre, Vec2 velocity, double spin) {
-  for (Vec2& of_node : x) of_node = velocity + spin * perp(of_node - centre);
-  return x;
-}
-
 }  // namespace edda

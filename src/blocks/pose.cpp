@@ -51,11 +51,29 @@ struct BentBlocks {
   const Id* vertex_begin;
   const Bending& bending;
   const double *bend_x, *bend_y;
+  const Meshes& meshes;
 };
+
+/// The corners of block i, which is meshed.
+void place_meshed(const VertexView& p, const BentBlocks& b, std::size_t i) {
+  const Id first = b.vertex_begin[i];
+  const std::size_t mesh = b.bending.modes() + b.meshes.begin[i];
+  const NodeVectors nodes = vectors_of(b.x, b.y, i);
+  for (std::size_t v = first; v < b.vertex_begin[i + 1]; ++v) {
+    const double w1 = p.weight[1][v], w2 = p.weight[2][v];
+    const Vec2 at = weighted({1.0 - w1 - w2, w1, w2}, nodes);
+    p.to_x[v] = at.x + b.bend_x[mesh + (v - first)];
+    p.to_y[v] = at.y + b.bend_y[mesh + (v - first)];
+  }
+}
 
 /// The same of these.
 EDDA_VECTOR double place_bent(VertexView p, BentBlocks b, std::size_t begin, std::size_t end) {
   for (std::size_t i = begin; i < end; ++i) {
+    if (b.meshes.nodes_of(i) > 0) {
+      place_meshed(p, b, i);
+      continue;
+    }
     const Id first = b.vertex_begin[i];
     const BlockModes modes = modes_of(b.bending, i, b.vertex_begin[i + 1] - first);
     const double x0 = b.x[0][i], x1 = b.x[1][i], x2 = b.x[2][i];
@@ -86,19 +104,24 @@ double place_next(const BlockSet& b, const State& s, Pose& pose, std::size_t beg
                   std::size_t end) {
   const VertexView view{values_of(b.weight), b.vertex_block.data(), pose.x.data(),
                         pose.y.data(),       pose.x1.data(),        pose.y1.data()};
-  if (b.bending.any()) {
-    const BentBlocks blocks{values_of(s.x), values_of(s.y),  b.vertex_begin.data(),
-                            b.bending,      s.bend.x.data(), s.bend.y.data()};
+  if (b.mode_places() > 0) {
+    const BentBlocks blocks{values_of(s.position.x),
+                            values_of(s.position.y),
+                            b.vertex_begin.data(),
+                            b.bending,
+                            s.position.modes.x.data(),
+                            s.position.modes.y.data(),
+                            b.meshes};
     return place_bent(view, blocks, begin, end);
   }
-  return place(view, values_of(s.x), values_of(s.y), b.vertex_begin[begin], b.vertex_begin[end]);
+  return place(view, values_of(s.position.x), values_of(s.position.y), b.vertex_begin[begin],
+               b.vertex_begin[end]);
 }
 
-void place_a_step_back(const BlockSet& b, const State& state, const Nodes& vx, const Nodes& vy,
-                       double h, Pose& pose) {
+void place_a_step_back(const BlockSet& b, const State& state, double h, Pose& pose) {
   parallel_for(b.size(), [&](std::size_t i) {
     if (!is_free(b, state, i)) return;
-    place_vertices(b, vx, vy, state.bend_rate, i, pose.x1, pose.y1);
+    place_vertices(b, state.velocity, i, pose.x1, pose.y1);
     for (Id v = b.vertex_begin[i]; v < b.vertex_begin[i + 1]; ++v) {
       pose.x1[v] = pose.x[v] - h * pose.x1[v];
       pose.y1[v] = pose.y[v] - h * pose.y1[v];

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <cstring>
 #include <optional>
 #include <span>
 #include <string>
@@ -150,6 +151,31 @@ class Loader {
   const Record& record_;
   std::string flaw_;
 };
+
+/// Lists the parts of vectors of all blocks (blocks/body_vectors.hpp).
+template <class Archive, class Vectors>
+void list_vectors(Archive& a, const std::string& name, Vectors& u) {
+  a(name + ".x", u.x);
+  a(name + ".y", u.y);
+  a(name + ".modes_x", u.modes.x);
+  a(name + ".modes_y", u.modes.y);
+}
+
+/// Lists structs that are numbers alone, one after the other.
+template <class Archive, class T>
+void list_numbers(Archive& a, const std::string& name, std::vector<T>& values) {
+  static_assert(std::is_trivially_copyable_v<T> && sizeof(T) % sizeof(double) == 0);
+  constexpr std::size_t each = sizeof(T) / sizeof(double);
+  std::vector<double> flat(each * values.size());
+  if (!values.empty())
+    std::memcpy(flat.data(), static_cast<const void*>(values.data()), flat.size() * sizeof(double));
+  a(name, flat);
+  if constexpr (Archive::loads) {
+    values.resize(flat.size() / each);
+    if (!values.empty())
+      std::memcpy(static_cast<void*>(values.data()), flat.data(), values.size() * sizeof(T));
+  }
+}
 
 template <class Archive>
 void list_points(Archive& a, const std::string& name, std::vector<Vec2>& points) {

@@ -39,7 +39,7 @@ double deepest_corner(const FaceSet& c, const BlockSet& b, const Pose& pose, con
   const auto depth = [&](double of_first, Vec2 p, Vec2 q) {
     const bool of_edge = of_first >= 0.5;
     const Id other = b.vertex_block[of_edge ? c.facing[k] : c.edge[k]];
-    return inside_of(b, pose, of_edge ? p : q, other).depth;
+    return depth_inside(b, pose, of_edge ? p : q, other);
   };
   return std::max(depth(face.of_first.a, at.p1, at.q2), depth(face.of_first.b, at.p2, at.q1));
 }

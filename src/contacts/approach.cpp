@@ -34,7 +34,7 @@ double gap(const Extent& a, const Extent& b) {
   return std::hypot(x, y);
 }
 
-Extent extent_of_block(const BlockSet& b, const Standing& then, Id i) {
+Extent extent_of_block(const BlockSet& b, const ListOrigin& then, Id i) {
   Extent box;
   for (Id v = b.vertex_begin[i]; v < b.vertex_begin[i + 1]; ++v) box.include(at(then.x, then.y, v));
   return box;
@@ -87,7 +87,8 @@ void pair_groups(NeighbourGroups& g, const std::vector<Extent>& boxes, double re
   }
 }
 
-void make_groups(NeighbourGroups& g, const BlockSet& b, const State& state, const Standing& then) {
+void make_groups(NeighbourGroups& g, const BlockSet& b, const State& state,
+                 const ListOrigin& then) {
   std::vector<Extent> boxes(b.size());
   for (Id i = 0; i < b.size(); ++i) boxes[i] = extent_of_block(b, then, i);
   g.far = widths_of_group * mean_width(b, state);
@@ -108,7 +109,7 @@ void make_groups(NeighbourGroups& g, const BlockSet& b, const State& state, cons
   g.of_list = then.list;
 }
 
-void measure(NeighbourGroups& g, const BlockSet& b, const Pose& pose, const Standing& then) {
+void measure(NeighbourGroups& g, const BlockSet& b, const Pose& pose, const ListOrigin& then) {
   g.moved.resize(g.begin.size() - 1);
   parallel_chunks(g.moved.size(), 16, 150, [&](std::size_t, std::size_t begin, std::size_t end) {
     for (std::size_t q = begin; q < end; ++q) {
@@ -133,14 +134,14 @@ double relative_displacement(const Extent& one, const Extent& other) {
 }  // namespace
 
 double largest_approach(NeighbourGroups& g, const BlockSet& b, const State& state, const Pose& pose,
-                        const Standing& then) {
+                        const ListOrigin& then) {
   if (g.of_list != then.list) make_groups(g, b, state, then);
   measure(g, b, pose, then);
   if (g.moved.empty()) return 0.0;
   Extent all;
   for (const Extent& moved : g.moved) all.include(moved);
   const double apart = relative_displacement(all, all);
-  double approach = std::max(0.0, apart - std::max(0.0, g.far - then.reach)) + all.lost;
+  double approach = std::max(0.0, apart - std::max(0.0, g.far - then.reach)) + all.not_finite;
   for (const NeighbourGroups::Pair& p : g.pairs) {
     approach =
         std::max(approach, relative_displacement(g.moved[p.one], g.moved[p.other]) - p.spare);

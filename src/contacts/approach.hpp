@@ -22,14 +22,14 @@ struct NeighbourGroups {
   struct Extent {
     double left = std::numeric_limits<double>::infinity(), right = -left;
     double low = left, high = -left;
-    double lost = 0.0;  ///< not a number where a coordinate is not
+    double not_finite = 0.0;  ///< NaN where a coordinate is not finite, else 0
 
     void include(const Extent& e) {
       left = std::min(left, e.left);
       right = std::max(right, e.right);
       low = std::min(low, e.low);
       high = std::max(high, e.high);
-      lost += e.lost;
+      not_finite += e.not_finite;
     }
     void include(Vec2 p) { include({p.x, p.x, p.y, p.y, 0.0 * (p.x + p.y)}); }
   };
@@ -37,20 +37,20 @@ struct NeighbourGroups {
     Id one, other;  ///< groups, or a group and itself
     double spare;   ///< m: by how much more than the reach of the list they may approach
   };
-  std::uint64_t of_list = 0;      ///< Standing::list; 0: none
+  std::uint64_t of_list = 0;      ///< ListOrigin::list; 0: none
   std::vector<Id> begin, blocks;  ///< blocks of group g: blocks[begin[g]] to blocks[begin[g + 1]]
   std::vector<Pair> pairs;        ///< of groups nearer to each other than `far`
   double far = 0.0;               ///< m
   std::vector<Extent> moved;      ///< [groups] displacements of the vertices, at the last look
 };
 
-/// How the blocks stood when a list was made.
-struct Standing {
+/// Positions of the vertices when a list was made, and its reach.
+struct ListOrigin {
   const std::vector<double>&x, &y;  ///< [nv] positions of the vertices, m
   double reach;                     ///< m: the list has the edges nearer to each other than this
   std::uint64_t list;               ///< its number, from 1 on
 };
-inline Standing standing_of(const FaceSet& faces) {
+inline ListOrigin origin_of(const FaceSet& faces) {
   return {faces.built_x, faces.built_y, faces.reach, faces.rebuilds};
 }
 
@@ -60,6 +60,6 @@ inline Standing standing_of(const FaceSet& faces) {
 /// the list holds as long as that is positive. No two vertices of a group have moved against each
 /// other by more. Not a number where a position is not.
 double largest_approach(NeighbourGroups& groups, const BlockSet& blocks, const State& state,
-                        const Pose& pose, const Standing& then);
+                        const Pose& pose, const ListOrigin& then);
 
 }  // namespace edda

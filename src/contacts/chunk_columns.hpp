@@ -24,7 +24,7 @@ struct ChunkColumns : EdgeConstants<const double*>, StrengthConstants<const doub
   DashpotMemoryColumns<const double*> damped_before;
   DashpotMemoryColumns<double*> damped;
   FaceWorkColumns<double*> work;
-  StandColumns<double*> stands;
+  GeometryColumns<double*> stands;
   OverlapColumns<double*> overlaps;
   PressureColumns<double*> pressures;
   LimitColumns<const double*> limits;
@@ -63,7 +63,7 @@ EDDA_INLINE ChunkColumns columns_of(const ChunkView& v) {
     c.before = columns_from<FaceMemoryColumns<const double*>>(v.before);
     c.memory = columns_from<FaceMemoryColumns<double*>>(v.memory);
     c.work = columns_from<FaceWorkColumns<double*>>(v.work);
-    c.stands = columns_from<StandColumns<double*>>(v.stands);
+    c.stands = columns_from<GeometryColumns<double*>>(v.stands);
     c.overlaps = columns_from<OverlapColumns<double*>>(v.overlaps);
     c.pressures = columns_from<PressureColumns<double*>>(v.pressures);
   }

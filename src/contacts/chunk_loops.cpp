@@ -10,7 +10,7 @@ namespace edda {
 namespace {
 
 EDDA_INLINE EdgeGeometry geometry_of(const ChunkColumns& c, const FacePair& pair, std::size_t k) {
-  const StandColumns<double*>& s = c.stands;
+  const GeometryColumns<double*>& s = c.stands;
   EdgeGeometry o;
   o.tx = s.tx[k];
   o.ty = s.ty[k];
@@ -32,7 +32,7 @@ EDDA_INLINE EdgeGeometry geometry_of(const ChunkColumns& c, const FacePair& pair
   return o;
 }
 EDDA_INLINE void write_geometry(const ChunkColumns& c, const EdgeGeometry& o, std::size_t k) {
-  const StandColumns<double*>& s = c.stands;
+  const GeometryColumns<double*>& s = c.stands;
   s.tx[k] = o.tx;
   s.ty[k] = o.ty;
   s.per_base[k] = o.per_base;
@@ -96,8 +96,8 @@ EDDA_INLINE void write_overlap(const ChunkColumns& c, std::size_t k) {
   s.reach_by_b[k] = v.reach.by_b;
 }
 
-/// books: with the corners at n and n - 1, of which only the work of the step follows.
-template <bool dashpots, bool books, bool limited = false>
+/// with_work: the corners at n and n - 1 are read, from which only the work of the step follows.
+template <bool dashpots, bool with_work, bool limited = false>
 EDDA_INLINE FaceInputs inputs_of(const ChunkColumns& c, std::size_t k) {
   const LaneBits bit = bit_of_lane[k];
   const auto was = [&](unsigned of) { return (c.was & (bit << of)) != 0; };
@@ -109,8 +109,8 @@ EDDA_INLINE FaceInputs inputs_of(const ChunkColumns& c, std::size_t k) {
   return {pair_of(c, k),
           {c.shear_stiffness[k], c.friction[k], c.cohesion[k], c.bonded[k] > 0.0, c.zeta[k],
            c.shear_zeta[k], c.rebound[k]},
-          !books ? FacePoints{} : points_of(*c.e, *c.f, k),
-          !books ? FacePoints{} : points_of(*c.e_then, *c.f_then, k),
+          !with_work ? FacePoints{} : points_of(*c.e, *c.f, k),
+          !with_work ? FacePoints{} : points_of(*c.e_then, *c.f_then, k),
           {c.before.slip_a[k],
            c.before.slip_b[k],
            c.before.overlap[k],
@@ -187,24 +187,26 @@ EDDA_INLINE bool bond_fails(const ChunkColumns& c, const Face& face, const FaceS
       .any();
 }
 
-/// What the lanes of a chunk tell, bits as lane_bits. All else follows from it and from what was.
-struct ChunkTruths {
+/// Results of the lanes of a chunk, in fields of bits; conclude() derives the others from these and
+/// from the bits of n - 1.
+struct LaneResults {
   LaneBits state = 0;  ///< stored, on, closed_a, closed_b, and those below
   LaneBits found = 0;  ///< rare, busy, slides, fails
   double deepest = 0.0;
 };
-constexpr unsigned touches = 32, carried = 40, is_free = 48;  ///< of `state`
+/// Fields of LaneResults::state alone.
+constexpr unsigned touches = 32, carried = 40, may_act = 48;
 
-template <bool dashpots, Formulas use, bool books, bool limited>
+template <bool dashpots, Formulas use, bool with_work, bool limited>
 EDDA_INLINE void evaluate_lane(const ChunkColumns& c, std::size_t k, Records& on_e, Records& on_f,
                                LaneBits& state, LaneBits& found, double& deepest) {
-  const FaceInputs in = inputs_of<dashpots, books, limited>(c, k);
+  const FaceInputs in = inputs_of<dashpots, with_work, limited>(c, k);
   const EdgeGeometry stands = geometry_of(c, in.pair, k);
   const OverlapEnds overlap = overlap_of<use>(c, stands, in.pair, k);
   const Face face = face_between<use>(stands, overlap, in.pair);
-  const FaceStep s = step_of_face<dashpots, limited, use, books>(in, stands, face);
+  const FaceStep s = step_of_face<dashpots, limited, use, with_work>(in, stands, face);
   write_memory<dashpots>(c, s, k);
-  if constexpr (books) write_work(c, face, s, k);
+  if constexpr (with_work) write_work(c, face, s, k);
   write_forces(on_e, on_f, s.force, k);
   const LaneBits bit = bit_of_lane[k];
   const auto mark = [bit](bool is, unsigned of) __attribute__((always_inline)) {
@@ -214,17 +216,19 @@ EDDA_INLINE void evaluate_lane(const ChunkColumns& c, std::size_t k, Records& on
   const bool cut = is_cut(s.trial, s.slip);
   state |= mark(face.energy > 0.0, lane_bits::stored) | mark(face.gate > 0.0, lane_bits::on) |
            mark(s.closed_a, lane_bits::closed_a) | mark(s.closed_b, lane_bits::closed_b) |
-           mark(s.touches, touches) | mark(in.before.spring > 0.0, carried) | mark(s.free, is_free);
-  found |= mark(s.rare, lane_bits::rare) | mark(s.unrest | (work != 0.0), lane_bits::busy);
-  if constexpr (books) found |= mark(cut, lane_bits::slides);
+           mark(s.touches, touches) | mark(in.before.spring > 0.0, carried) |
+           mark(s.may_act, may_act);
+  found |= mark(s.rare, lane_bits::rare) | mark(s.needs_work | (work != 0.0), lane_bits::busy);
+  if constexpr (with_work) found |= mark(cut, lane_bits::slides);
   if constexpr (use == Formulas::all) {
     found |= mark(bond_fails(c, face, s, k), lane_bits::fails);
   }
   deepest = larger(deepest, s.depth);
 }
 
-/// As mark_changes(), for all lanes at once.
-EDDA_INLINE ChunkFound conclude(LaneBits was, const ChunkTruths& is, bool dashpots) {
+/// What has changed in the step, for all lanes at once (as mark_changes()), and
+/// lane_bits::switching and loaded.
+EDDA_INLINE ChunkFound conclude(LaneBits was, const LaneResults& is, bool dashpots) {
   const auto lanes_of = [](LaneBits bits, unsigned of) { return bits >> of & 0xff; };
   const auto now = [&](unsigned of) { return lanes_of(is.state, of); };
   const auto then = [&](unsigned of) { return lanes_of(was, of); };
@@ -234,18 +238,18 @@ EDDA_INLINE ChunkFound conclude(LaneBits was, const ChunkTruths& is, bool dashpo
   const LaneBits switched = (now(lane_bits::closed_a) ^ (stored & then(lane_bits::closed_a))) |
                             (now(lane_bits::closed_b) ^ (stored & then(lane_bits::closed_b)));
   const LaneBits switching = stored & (switched | then(lane_bits::switched));
-  const LaneBits decides = (on & ~then(lane_bits::on)) | (on & now(is_free)) | (stores & ~stored);
-  const LaneBits works = now(touches) | stored | now(carried);
+  const LaneBits decides = (on & ~then(lane_bits::on)) | (on & now(may_act)) | (stores & ~stored);
+  const LaneBits loaded = now(touches) | stored | now(carried);
   const LaneBits busy = dashpots ? 0xff : opens;
   constexpr LaneBits remembered = 0xffffffff;  // stored, on, closed_a, closed_b
   return {(is.state & remembered) | switched << lane_bits::switched,
           is.found | decides << lane_bits::decides | switching << lane_bits::switching |
-              works << lane_bits::works | busy << lane_bits::busy | opens << lane_bits::opens,
+              loaded << lane_bits::loaded | busy << lane_bits::busy | opens << lane_bits::opens,
           is.deepest};
 }
 
 /// Stores the forces unless the chunk must be evaluated in another way.
-template <bool dashpots, Formulas use, bool books, bool limited = false>
+template <bool dashpots, Formulas use, bool with_work, bool limited = false>
 EDDA_INLINE ChunkFound evaluate_lanes(const ChunkView& given) {
   ChunkColumns c = columns_of<dashpots>(given);  // a copy that no store can change
   if constexpr (limited) c.limits = columns_from<LimitColumns<const double*>>(given.limits);
@@ -254,11 +258,11 @@ EDDA_INLINE ChunkFound evaluate_lanes(const ChunkView& given) {
   double deepest = 0.0;
 #pragma omp simd reduction(| : state, found) reduction(max : deepest)
   for (std::size_t k = 0; k < lanes; ++k) {
-    evaluate_lane<dashpots, use, books, limited>(c, k, on_e, on_f, state, found, deepest);
+    evaluate_lane<dashpots, use, with_work, limited>(c, k, on_e, on_f, state, found, deepest);
   }
   const ChunkFound all = conclude(c.was, {state, found, deepest}, dashpots);
   const LaneBits unfit = (use == Formulas::plain ? lane_bits::field(lane_bits::rare) : 0) |
-                         (books ? 0 : lane_bits::field(lane_bits::busy));
+                         (with_work ? 0 : lane_bits::field(lane_bits::busy));
   if ((all.found & unfit) == 0) {
     const SweepTables& of = *given.of;
     store_records(of.on, of.record_e + given.chunk * lanes, on_e);
@@ -310,7 +314,7 @@ SweepTables tables_of(FaceTiles& t, std::size_t tile, double* on, double step,
           .bond_strength = faces.bond_strength};
 }
 
-EDDA_VECTOR void stand_edges(const ChunkView& given) {
+EDDA_VECTOR void compute_geometry(const ChunkView& given) {
   const ChunkColumns c = columns_of<Tables::memory>(given);
 #pragma omp simd
   for (std::size_t k = 0; k < lanes; ++k) {
@@ -324,7 +328,7 @@ EDDA_VECTOR void overlap_edges(const ChunkView& given) {
   for (std::size_t k = 0; k < lanes; ++k) write_overlap(c, k);
 }
 
-EDDA_VECTOR ChunkFound evaluate_bonded_at_rest(const ChunkView& c) {
+EDDA_VECTOR ChunkFound evaluate_bonded_without_work(const ChunkView& c) {
   return evaluate_lanes<false, Formulas::all, false>(c);
 }
 EDDA_VECTOR ChunkFound evaluate_bonded_with_work(const ChunkView& c) {
@@ -333,7 +337,7 @@ EDDA_VECTOR ChunkFound evaluate_bonded_with_work(const ChunkView& c) {
 EDDA_VECTOR ChunkFound evaluate_bonded_damped(const ChunkView& c) {
   return evaluate_lanes<true, Formulas::all, true>(c);
 }
-EDDA_VECTOR ChunkFound evaluate_at_rest(const ChunkView& c) {
+EDDA_VECTOR ChunkFound evaluate_without_work(const ChunkView& c) {
   return evaluate_lanes<false, Formulas::unbonded, false>(c);
 }
 EDDA_VECTOR ChunkFound evaluate_with_work(const ChunkView& c) {
@@ -342,7 +346,7 @@ EDDA_VECTOR ChunkFound evaluate_with_work(const ChunkView& c) {
 EDDA_VECTOR ChunkFound evaluate_damped(const ChunkView& c) {
   return evaluate_lanes<true, Formulas::unbonded, true>(c);
 }
-EDDA_VECTOR ChunkFound evaluate_plain_at_rest(const ChunkView& c) {
+EDDA_VECTOR ChunkFound evaluate_plain_without_work(const ChunkView& c) {
   return evaluate_lanes<false, Formulas::plain, false>(c);
 }
 EDDA_VECTOR ChunkFound evaluate_plain_with_work(const ChunkView& c) {
@@ -359,18 +363,18 @@ EDDA_VECTOR ChunkFound evaluate_limited_damped(const ChunkView& c) {
   return evaluate_lanes<true, Formulas::all, true, true>(c);
 }
 
-EDDA_VECTOR ChunkFound look_at(const ChunkView& given) {
+EDDA_VECTOR ChunkFound test_open_faces(const ChunkView& given) {
   const ChunkColumns c = columns_of<Tables::memory>(given);
-  LaneBits bits = 0, asking = 0;
-#pragma omp simd reduction(| : bits, asking)
+  LaneBits bits = 0, undecided = 0;
+#pragma omp simd reduction(| : bits, undecided)
   for (std::size_t k = 0; k < lanes; ++k) {
     const FaceInputs in = inputs_of<false, false>(c, k);
-    const OpenFace s = look_at_open_face(in, geometry_of(c, in.pair, k));
+    const OpenFace s = test_open_face(in, geometry_of(c, in.pair, k));
     const LaneBits bit = bit_of_lane[k];
     bits |= s.gate > 0.0 ? bit << lane_bits::on : 0;
-    asking |= s.may_close ? bit << lane_bits::decides : 0;
+    undecided |= s.may_close ? bit << lane_bits::decides : 0;
   }
-  return {bits, asking, 0.0};
+  return {bits, undecided, 0.0};
 }
 
 EDDA_VECTOR void measure_faces(const ChunkView& given, ChunkMeasures& to) {

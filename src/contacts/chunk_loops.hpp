@@ -12,11 +12,11 @@ namespace edda {
 /// Relative geometry of the two edges of each face, cached: what EdgeGeometry follows from beside
 /// s2, y2, r1, r2, and z2, which are remembered (FaceMemoryColumns).
 template <class C>
-struct StandColumns {
+struct GeometryColumns {
   C tx, ty, per_base, z1, per_e, per_f, slope_e, slope_f, closure_at_0;
   C length_cosine, length_sine;
 };
-inline constexpr std::size_t stand_columns = sizeof(StandColumns<double>) / sizeof(double);
+inline constexpr std::size_t geometry_columns = sizeof(GeometryColumns<double>) / sizeof(double);
 /// Where they overlap: what counts of OverlapEnds where the short formulas do not suffice.
 template <class C>
 struct OverlapColumns {
@@ -58,7 +58,7 @@ struct ChunkView {
   const double *edges, *strengths, *before, *damped_before;
   double *memory, *damped, *work;
   const double* limits;                   ///< LimitColumns, or null
-  double *stands, *overlaps, *pressures;  ///< StandColumns, OverlapColumns, PressureColumns
+  double *stands, *overlaps, *pressures;  ///< GeometryColumns, OverlapColumns, PressureColumns
   const Records *e, *f;                   ///< the edges
   const Records *e_then = &no_corners, *f_then = &no_corners;
   const Records *mass_e = &no_corners, *mass_f = &no_corners;
@@ -106,22 +106,22 @@ void read_edges(const double* from, const Id* slot_e, const Id* slot_f, Records&
 /// Reads EdgeInverseMass of the edges of a chunk, by their numbers. next: BlockSet::next.
 void read_masses(const Masses& masses, const Id* next, const Id* edge, const Id* facing, Records& e,
                  Records& f);
-/// Finds out how the edges stand, from their records (ChunkView::e, f).
-void stand_edges(const ChunkView& chunk);
-/// Finds where they overlap, from how they stand.
+/// Computes the relative geometry of the edges from their records (ChunkView::e, f).
+void compute_geometry(const ChunkView& chunk);
+/// Computes where they overlap, from that geometry.
 void overlap_edges(const ChunkView& chunk);
 
-/// The loops below need that. They evaluate a chunk: state, forces, and, where `work` is in the
-/// name, work and pressures. `bonded`: by all formulas; `plain`: by those of plain faces; else by
-/// those of faces without bonds (Formulas). Forces are stored unless the chunk turns out to need
+/// The loops below need both. They evaluate a chunk: state, forces, and, where `with_work` is in
+/// the name, work and pressures. `bonded`: by all formulas; `plain`: by those of plain faces; else
+/// by those of faces without bonds (Formulas). Forces are stored unless the chunk turns out to need
 /// another of these loops: it is not plain (lane_bits::rare), or does work (lane_bits::busy).
-ChunkFound evaluate_bonded_at_rest(const ChunkView& chunk);
+ChunkFound evaluate_bonded_without_work(const ChunkView& chunk);
 ChunkFound evaluate_bonded_with_work(const ChunkView& chunk);
-ChunkFound evaluate_at_rest(const ChunkView& chunk);
+ChunkFound evaluate_without_work(const ChunkView& chunk);
 ChunkFound evaluate_with_work(const ChunkView& chunk);
-ChunkFound evaluate_plain_at_rest(const ChunkView& chunk);
+ChunkFound evaluate_plain_without_work(const ChunkView& chunk);
 ChunkFound evaluate_plain_with_work(const ChunkView& chunk);
-/// The same with dashpots, which always work.
+/// The same with dashpots, which always do work.
 ChunkFound evaluate_bonded_damped(const ChunkView& chunk);
 ChunkFound evaluate_damped(const ChunkView& chunk);
 ChunkFound evaluate_plain_damped(const ChunkView& chunk);
@@ -129,16 +129,16 @@ ChunkFound evaluate_plain_damped(const ChunkView& chunk);
 ChunkFound evaluate_limited(const ChunkView& chunk);
 ChunkFound evaluate_limited_damped(const ChunkView& chunk);
 
-/// Updates the corners of faces that have carried nothing for two steps. `decides` of what is
-/// found: one needs more than that.
-ChunkFound look_at(const ChunkView& chunk);
+/// Tests faces that have carried nothing for two steps. `decides` of what is found: a face may
+/// close or needs a decision, and the chunk must be evaluated.
+ChunkFound test_open_faces(const ChunkView& chunk);
 
 /// What a row of results needs of the faces of a chunk: the energy that is stored between n - 1 and
 /// n, J, and the normal force at n, N.
 struct ChunkMeasures {
   alignas(64) double energy[lanes], normal[lanes];
 };
-/// `was` of the chunk is that of n; e_then, f_then: the edges at n - 1.
+/// The chunk's `was` must hold the bits of n, and its e_then and f_then the edges at n - 1.
 void measure_faces(const ChunkView& chunk, ChunkMeasures& to);
 
 /// Margins by which the corners of faces that rest, and that sleep, may stray, m.
@@ -150,9 +150,9 @@ struct OpenLanes {
   LaneBits stay;  ///< a field of bits for each margin: nothing changes that counts, no state but
                   ///< that of the corners, and no force
 };
-/// `was` of the chunk is that of the step before. `stay` holds for so many steps in each of which
-/// the ends of the edges move by e_then and f_then of the chunk (m), as long as none of them strays
-/// from there by more than the margin.
+/// The chunk's `was` must hold the bits of n - 1, and its e_then and f_then the motion of the ends
+/// of the edges in a step, m. `stay` holds for `steps` steps in which they move at that pace and
+/// deviate from these paths by the margin at most.
 OpenLanes open_lanes(const ChunkView& chunk, const RestMargins& margins, double steps);
 
 }  // namespace edda

@@ -42,8 +42,8 @@ CornerForces recompute_shear(FaceSet& c, FaceFields& m, const Face& face, const 
     // is u_tr - slipped.
     const auto taken = [&](const Shear& s) {
       const double all = -0.5 * s.force * (slipped - s.slip);
-      const double slip_so_far = 0.5 * spring * (trial - s.slip) * (s.slip + trial - slipped);
-      const double friction = std::max(slip_so_far, 0.0);
+      const double plastic_work = 0.5 * spring * (trial - s.slip) * (s.slip + trial - slipped);
+      const double friction = std::max(plastic_work, 0.0);
       return Lost{friction, all - friction};
     };
     const Lost was = taken({force, slip}), is = taken(next);

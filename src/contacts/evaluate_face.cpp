@@ -99,7 +99,7 @@ void decide_face(FaceSet& c, const FaceScene& scene, double step, const FaceFiel
   const BlockSet& b = scene.blocks;
   const Pose& pose = scene.pose;
   EvaluatedFace now = evaluate_face(c, scene, step, before, k);
-  if (now.asks && decide_activity(c, b, pose, {before.energy > 0.0, before.gate > 0.0}, k))
+  if (now.undecided && decide_activity(c, b, pose, {before.energy > 0.0, before.gate > 0.0}, k))
     now = evaluate_face(c, scene, step, before, k);
   if (!c.bonded(k) && !c.carries_tension(k)) return;
   if (!bond_fails(c, b, now.state, k)) return;
@@ -114,7 +114,7 @@ void count_failures(FaceSet& c) {
     c.set(FaceFlag::fails, k, false);
     c.set(FaceFlag::bond_breaks, k, false);
   });
-  std::fill(c.chunk_fails.begin(), c.chunk_fails.end(), std::uint8_t{0});
+  std::fill(c.group_fails.begin(), c.group_fails.end(), std::uint8_t{0});
 }
 
 Face face_at(const FaceSet& c, const BlockSet& b, const std::vector<double>& x,

@@ -24,7 +24,7 @@ struct FaceScene {
 struct EvaluatedFace {
   FaceFields state;
   CornerForces force;
-  bool asks;
+  bool undecided;
 };
 
 /// Face k at the positions pose.x, y of step n, from its state at n - 1 and the positions then,

@@ -73,9 +73,8 @@ struct Face {
   CornerForces force;       ///< forces of the normal pressure, couples included
 };
 
-/// Tensile stress of the outer fibre on the length L of a face, N, with the normal force and the
-/// moment of both ends: Navier's formula, -N/L + 6 |M|/L^2, with M = (Na - Nb) L/2. So a bond bends
-/// as far as it would with stresses that are linear along it, however the element takes them.
+/// Navier's tensile stress of the outer fibre, -N/L + 6 |M|/L^2 with M = (Na - Nb) L/2, times L, N:
+/// with stresses linear along the bond, by whichever rule the element integrates them.
 EDDA_INLINE double outer_tension(FaceEnds normal) {
   return 2.0 * larger(normal.a, normal.b) - 4.0 * smaller(normal.a, normal.b);
 }
@@ -117,15 +116,15 @@ EDDA_INLINE CornerForces on_corners(const FrameForces& on, const EdgeCoordinates
 }
 
 /// Aspect gate w with its derivatives.
-struct DepthGate {
+struct AspectGate {
   SmoothStep part{1.0, 0.0};  ///< w, and its derivative with respect to the argument of S
   double by_length = 0.0;     ///< dw/dL, 1/m
   double per_deepest = 0.0;   ///< 1/d*, the inverse of the larger closure (gated_closure()), 1/m
   bool deep_b = false;        ///< the larger closure is that of end b
 };
 template <Formulas use>
-EDDA_INLINE DepthGate depth_gate(FaceEnds drawn, double length, const FacePair& pair) {
-  DepthGate w;
+EDDA_INLINE AspectGate aspect_gate(FaceEnds drawn, double length, const FacePair& pair) {
+  AspectGate w;
   if constexpr (use != Formulas::plain) {
     const FaceEnds gated = gated_closure(drawn.a, drawn.b, pair);
     const double deepest = larger(gated.a, gated.b);
@@ -186,7 +185,7 @@ struct EnergySlopes {
 /// U = w W k L phi and the normal forces of a face with known overlap and closures (theory 4.2).
 template <Formulas use>
 EDDA_INLINE EnergySlopes store_energy(Face& face, const EdgeGeometry& o, const OverlapEnds& v,
-                                      const FacePair& pair, const DepthGate& w, EdgeAngle angle) {
+                                      const FacePair& pair, const AspectGate& w, EdgeAngle angle) {
   const bool carries = carries_tension<use>(pair);
   const double da = face.closure.a, db = face.closure.b;
   const SmoothStep by_aspect = w.part;
@@ -306,7 +305,7 @@ EDDA_INLINE Face face_between(const EdgeGeometry& o, const OverlapEnds& v, const
   face.eta = {(v.sa - o.r2) * o.per_f, (v.sb - o.r2) * o.per_f};
   face.drawn = {o.closure_at_0 + o.closure_slope * v.sa, o.closure_at_0 + o.closure_slope * v.sb};
   face.closure = closed_by(face.drawn, o, pair);
-  const DepthGate w = depth_gate<use>(face.drawn, face.length, pair);
+  const AspectGate w = aspect_gate<use>(face.drawn, face.length, pair);
   const EnergySlopes u = store_energy<use>(face, o, v, pair, w, angle);
   press<use>(face, o, v, u);
   if constexpr (use != Formulas::plain)
@@ -329,7 +328,7 @@ EDDA_INLINE Face face_between(const FacePoints& at, const FacePair& pair) {
 /// energy of o grows with the length of the overlap, so the gradient pushes these corners by
 /// k o^2/2 along the face, although the initial stress has no such force. The forces returned here
 /// cancel that push, as far as there is one.
-EDDA_INLINE FaceEnds ends_at_bounds(const Face& face, const FacePair& pair) {
+EDDA_INLINE FaceEnds locked_closure_forces(const Face& face, const FacePair& pair) {
   const double half = 0.5 * face.gate * pair.stiffness;
   const FaceEnds locked{half * pair.offset.a * pair.offset.a, half * pair.offset.b * pair.offset.b};
   return {-smaller(locked.a, positive_part(-face.along.a)),

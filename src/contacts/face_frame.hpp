@@ -161,8 +161,9 @@ EDDA_INLINE double nearest_corners(const EdgeGeometry& o) {
   return smaller(std::abs(o.r2), std::abs(o.s2 - o.r1));
 }
 
-/// Whether the aspect gate surely removes the face: where no corners pass each other its ends are
-/// where they seem to be. Of faces without tension; deepest: the larger of gated_closure().
+/// Whether the aspect gate of a face without tension is certainly 0: no corners pass each other, so
+/// that the overlap is from ma to mb, and it is shorter than aspect_from times `deepest`, the
+/// larger of gated_closure().
 EDDA_INLINE bool is_faded(const EdgeGeometry& o, double deepest, const FacePair& pair) {
   constexpr double surely = 0.999;
   return (o.mb - o.ma < surely * aspect_from * deepest) & (nearest_corners(o) >= pair.passing);
@@ -214,8 +215,8 @@ EDDA_INLINE OverlapEnds overlap_of(const EdgeGeometry& o, const FacePair& pair) 
     v.near_a = corners_passing(-o.r2, furthest, per_furthest);
     v.near_b = corners_passing(o.s2 - o.r1, furthest, per_furthest);
     const double beyond = 0.25 * furthest;
-    v.la = o.ma + v.near_a.drawn_in - beyond;
-    v.lb = o.mb - v.near_b.drawn_in + beyond;
+    v.la = o.ma + v.near_a.inward - beyond;
+    v.lb = o.mb - v.near_b.inward + beyond;
     const double corner_a = o.closure_at_0 + o.closure_slope * v.la + pair.offset.a;
     const double corner_b = o.closure_at_0 + o.closure_slope * v.lb + pair.offset.b;
     v.reach = passing_reach(carries ? corner_a : positive_part(corner_a),
@@ -223,7 +224,7 @@ EDDA_INLINE OverlapEnds overlap_of(const EdgeGeometry& o, const FacePair& pair) 
     const double per_reach = 1.0 / (v.reach.reach > 0.0 ? v.reach.reach : 1.0);
     v.pass_a = corners_passing(-o.r2, v.reach.reach, per_reach);
     v.pass_b = corners_passing(o.s2 - o.r1, v.reach.reach, per_reach);
-    const double from = o.ma + v.pass_a.drawn_in, to = o.mb - v.pass_b.drawn_in;
+    const double from = o.ma + v.pass_a.inward, to = o.mb - v.pass_b.inward;
     v.exists = overlaps(from, to, pair) & opposed;
     v.sa = v.exists ? from : o.ma;
     v.sb = v.exists ? to : o.mb;

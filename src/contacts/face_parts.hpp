@@ -34,8 +34,8 @@ EDDA_INLINE SmoothStep smooth_step(double x) {
   return {u * u * (3.0 - 2.0 * u), 6.0 * u * (1.0 - u)};
 }
 
-/// The aspect gate fades closures deeper than this part of the overlap, and removes them at four
-/// times that.
+/// Aspect gate: w = 0 up to L/d* = aspect_from, and w = 1 from aspect_from + aspect_range on, with
+/// the length L of the overlap and its largest closure d*.
 inline constexpr double aspect_from = 0.5, aspect_range = 1.5;
 /// Part of the locked closure of the initial stress that counts in the aspect gate.
 inline constexpr double locked_part = 0.25;
@@ -53,8 +53,8 @@ EDDA_INLINE double flush_part(double cosine) {
 /// (r - |x|)^2/(4 r), and the weight with which it follows the other corner. Without this the force
 /// along the face would jump by k d^2/2.
 struct CornersPassing {
-  double drawn_in, by_other;
-  double by_reach;  ///< derivative of drawn_in with respect to r
+  double inward, by_other;
+  double by_reach;  ///< derivative of inward with respect to r
 };
 EDDA_INLINE CornersPassing corners_passing(double x, double reach, double per_reach) {
   const double near = positive_part(reach - std::abs(x));

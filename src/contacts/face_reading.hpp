@@ -32,7 +32,7 @@ struct FaceRow {
   std::size_t k;
   FaceFields state;
   CornerForces force;
-  bool opened, slipped;  ///< it has, after having been closed; it has at least once
+  bool opened, slipped;  ///< it has opened after having been closed; an end has slipped
 };
 
 /// Whether it carries force, or is bonded and would carry it at any displacement.
@@ -40,7 +40,7 @@ inline bool is_closed(const FaceRow& r) {
   return r.state.energy > 0.0 || (r.of.bonded(r.k) && r.state.gate > 0.0);
 }
 
-/// The larger drawn closure of the two ends of face k, m, where they are closed by so much.
+/// The larger drawn closure of the two ends of face k, m. closure: those at its ends.
 inline double drawn_closure(const FaceSet& f, FaceEnds closure, std::size_t k) {
   return std::max(closure.a - f.locked_closure_a[k], closure.b - f.locked_closure_b[k]);
 }

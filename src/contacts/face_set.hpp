@@ -79,11 +79,11 @@ enum class FaceFlag : std::uint16_t {
   fails = 1u << 7,        ///< its bond, or its tension: the energy released is fracture energy
   bond_breaks = 1u << 8,  ///< that of its bond
   // Since the start.
-  opened = 1u << 9,  ///< after having been closed
+  opened = 1u << 9,  ///< after having been closed, or its bond or tension has failed
   slipped = 1u << 10
 };
 
-inline constexpr std::uint16_t all_face_flags = (1u << 11) - 1;
+inline constexpr std::uint16_t all_face_flags = 2u * static_cast<unsigned>(FaceFlag::slipped) - 1;
 
 /// Bond of a face, which as a whole has its peak strength until it breaks. A face that tension has
 /// cracked from one end while the other is pressed keeps the peak strength in shear, and has the
@@ -152,22 +152,23 @@ struct FaceSet : RowTable<FaceProperties<RowColumn>, face_property_list<RowColum
   /// order of the faces.
   std::vector<Id> begin_of_edge, on_edge;
 
-  static constexpr std::size_t chunk = 16;  ///< faces that share a mark of `chunk_fails`
-  std::size_t chunks() const { return (size() + chunk - 1) / chunk; }
-  std::vector<std::uint8_t> chunk_fails;  ///< [chunks] 1: a face in it fails in the current step
+  static constexpr std::size_t failure_group = 16;  ///< faces that share a mark of `group_fails`
+  std::size_t failure_groups() const { return (size() + failure_group - 1) / failure_group; }
+  std::vector<std::uint8_t> group_fails;  ///< [groups] 1: a face in it fails in the current step
 
   /// Marks face k as failing in the current step.
   void mark_failure(std::size_t k, bool bond_breaks) {
     set(FaceFlag::fails, k);
     set(FaceFlag::bond_breaks, k, bond_breaks);
-    std::atomic_ref<std::uint8_t>(chunk_fails[k / chunk]).store(1, std::memory_order_relaxed);
+    std::atomic_ref<std::uint8_t>(group_fails[k / failure_group])
+        .store(1, std::memory_order_relaxed);
   }
   /// Calls visit(k) for the faces that fail in the current step.
   template <class Visit>
   void for_failures(Visit visit) const {
-    for (std::size_t q = 0; q < chunk_fails.size(); ++q) {
-      if (chunk_fails[q] == 0) continue;
-      for (std::size_t k = q * chunk; k < std::min((q + 1) * chunk, size()); ++k) {
+    for (std::size_t q = 0; q < group_fails.size(); ++q) {
+      if (group_fails[q] == 0) continue;
+      for (std::size_t k = q * failure_group; k < std::min((q + 1) * failure_group, size()); ++k) {
         if (is(FaceFlag::fails, k)) visit(k);
       }
     }
@@ -175,7 +176,7 @@ struct FaceSet : RowTable<FaceProperties<RowColumn>, face_property_list<RowColum
 
   /// [nf] What dilation has done in the step from n to n + 1: the opening, m, and the energy taken
   /// from friction for it, J. Empty where no joint changes.
-  std::vector<double> risen, risen_by;
+  std::vector<double> risen, dilation_work;
 
   std::vector<double> locked_start, locked_end;  ///< [nv] pressure of the initial stress at the two
                                                  ///< corners of an edge, N per m; empty: none
@@ -184,7 +185,7 @@ struct FaceSet : RowTable<FaceProperties<RowColumn>, face_property_list<RowColum
   std::vector<double> built_x, built_y;  ///< [nv] positions of the vertices then, m
   double noise = 0.0;         ///< m: closures up to this size are rounding of the coordinates
   double reach = 0.0;         ///< m: the list contains edges nearer to each other than this
-  double reach_behind = 0.0;  ///< m, Reach::behind: and of those behind each other also deeper ones
+  double reach_behind = 0.0;  ///< m: Reach::behind
   double travel = 0.0;  ///< m: upper bound of how far two edges have approached each other since
   std::uint64_t rebuilds = 0;
   double removed_friction = 0.0, removed_damping = 0.0, removed_fracture = 0.0,

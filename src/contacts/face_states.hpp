@@ -30,7 +30,7 @@ struct FaceFields {
   double shear_damping_a, shear_damping_b;  ///< forces of the shear dashpots, N
   double strike_a, strike_b;  ///< speed at which the ends closed (strike_speed()), m/s
   double damping_work;  ///< work of the dashpot forces at n in the last step, from n - 1 to n, J
-  double damping_due;   ///< work of the dashpot forces at n - 1 in it, the last that they do, J
+  double damping_due;   ///< the other half, of the dashpot forces at n - 1, J
 };
 
 /// Fills what follows from the corners of a face, which is this element there.

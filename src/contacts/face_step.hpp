@@ -44,12 +44,13 @@ struct Shear {
   double force, slip;
 };
 /// Cuts the trial force to Coulomb's limit (N), and the trial slip with it (return mapping; theory,
-/// section 4.3). Without books the slip is not cut.
-template <bool books>
+/// section 4.3). with_work: what the work of the step needs is computed, too; without it the slip
+/// is not cut.
+template <bool with_work>
 EDDA_INLINE Shear cut(double trial, double spring, double per_spring, double limit) {
   const double whole = -spring * trial;
   const double force = smaller(larger(whole, -limit), limit);
-  if constexpr (!books) return {force, trial};
+  if constexpr (!with_work) return {force, trial};
   return {force, force == whole ? trial : -force * per_spring};
 }
 EDDA_INLINE double inverse_of(double spring) {
@@ -91,7 +92,7 @@ EDDA_INLINE Lost lost(const Shear& now, double trial, double spring, const Sprin
 constexpr double least_length_change = 1e-4;
 
 /// Whether a face is open that does not act, so that it may act from now on.
-EDDA_INLINE bool becomes_free(const FaceInputs& in, FaceEnds drawn) {
+EDDA_INLINE bool may_begin_to_act(const FaceInputs& in, FaceEnds drawn) {
   return (in.pair.stiffness == 0.0) & (larger(drawn.a, drawn.b) <= 0.0);
 }
 
@@ -100,7 +101,7 @@ EDDA_INLINE bool becomes_free(const FaceInputs& in, FaceEnds drawn) {
 /// closures; `stores`: it stores energy.
 EDDA_INLINE bool needs_decision(const FaceInputs& in, bool on, FaceEnds drawn, bool stores) {
   const bool begins = on & !in.before.on;
-  const bool frees = on & becomes_free(in, drawn);
+  const bool frees = on & may_begin_to_act(in, drawn);
   const bool first = stores & !in.before.stored;
   return begins | frees | first;
 }
@@ -130,11 +131,11 @@ EDDA_INLINE DashpotRoots dashpot_roots(const FaceInputs& in, const Face& face, d
 }
 
 /// Speed at which an end that is closed now has closed, m/s: the largest rate of closing since
-/// then, `rate` now, which fades within a hundred radians of the vibration of the end (`turns` in
-/// the step), so that what has long been at rest there is damped as if it had just come to rest.
-EDDA_INLINE double strike_speed(bool closed, double before, double rate, double turns) {
+/// then, `rate` now. It decays over about a hundred radians of the vibration of the end (`radians`
+/// in the step); afterwards the dashpot is the linear one again.
+EDDA_INLINE double strike_speed(bool closed, double before, double rate, double radians) {
   constexpr double fades = 0.01;
-  return closed ? larger(rate, before * positive_part(1.0 - fades * turns)) : 0.0;
+  return closed ? larger(rate, before * positive_part(1.0 - fades * radians)) : 0.0;
 }
 
 /// Coefficient of the dashpot across one end, N s/m: `linear`, or where it has a `rebound` that
@@ -154,7 +155,7 @@ EDDA_INLINE double dashpot_of(double rebound, double linear, const EndOfFace& en
 /// unless the face carries tension; that of the dashpot along the joint stays within what the limit
 /// leaves, and acts where the end sticks. `limits_given`: the limit is given and does not follow
 /// from the normal force.
-template <bool dashpots, bool limits_given, Formulas use, bool books>
+template <bool dashpots, bool limits_given, Formulas use, bool with_work>
 EDDA_INLINE EndActs act(const FaceInputs& in, const EndOfFace& end, double spring,
                         double per_spring, const DashpotRoots& roots, double root, double cohesion,
                         bool touches, double given) {
@@ -164,7 +165,7 @@ EDDA_INLINE EndActs act(const FaceInputs& in, const EndOfFace& end, double sprin
     return bonded ? unlimited_shear : coulomb_limit(cohesion, in.strength.friction, normal);
   };
   if constexpr (!dashpots) {
-    const Shear shear = cut<books>(end.trial, spring, per_spring, limit_under(end.normal));
+    const Shear shear = cut<with_work>(end.trial, spring, per_spring, limit_under(end.normal));
     return {shear.force, shear.slip, 0.0, 0.0};
   } else {
     const double linear = 2.0 * in.strength.zeta * root;
@@ -175,7 +176,7 @@ EDDA_INLINE EndActs act(const FaceInputs& in, const EndOfFace& end, double sprin
     const bool carries = end.normal != 0.0;
     const double normal = carries ? (tension ? whole : pushing) : 0.0;
     const double limit = limit_under(normal);
-    const Shear shear = cut<books>(end.trial, spring, per_spring, limit);
+    const Shear shear = cut<with_work>(end.trial, spring, per_spring, limit);
     const double along =
         -2.0 * in.strength.shear_zeta * roots.along_per_across * root * end.slipping * in.per_step;
     const double within = larger(-limit - shear.force, smaller(limit - shear.force, along));
@@ -191,8 +192,8 @@ struct ShearSprings {
   double spring, per_spring;  ///< of each end, N/m, and its inverse
   bool change;                ///< the overlap that they represent has changed
 };
-/// Without books, which are 0 where nothing changes, `kept` is 1 and there is no `per_spring`.
-template <bool books>
+/// Without with_work `kept` is 1 and there is no `per_spring`.
+template <bool with_work>
 EDDA_INLINE ShearSprings shear_springs(const FaceInputs& in, const Face& face, bool touches) {
   const double length = positive_part(face.length), length_1 = in.before.overlap;
   const bool carried = in.before.spring > 0.0;
@@ -200,7 +201,7 @@ EDDA_INLINE ShearSprings shear_springs(const FaceInputs& in, const Face& face, b
   const double overlap = (carried & same) ? length_1 : length;
   const double spring = touches ? 0.5 * in.strength.shear_stiffness * overlap * face.gate : 0.0;
   const bool change = carried & !same;
-  if constexpr (!books) return {overlap, 1.0, spring, 0.0, change};
+  if constexpr (!with_work) return {overlap, 1.0, spring, 0.0, change};
   const double longest = larger(overlap, length_1);
   const double kept = carried ? length_1 / (longest > 0.0 ? longest : 1.0) : 1.0;
   return {overlap, kept, spring, inverse_of(spring), change};
@@ -247,7 +248,7 @@ EDDA_INLINE void give_strikes(FaceEnds strike, EndsOfFace& end) {
   end.b.strike = strike.b > 0.0 ? strike.b : strike.a;
 }
 
-/// Work of the forces of ends_at_bounds() in the step, J.
+/// Work of the forces of locked_closure_forces() in the step, J.
 EDDA_INLINE double work_of_bounds(const Face& face, FaceEnds bounds, const FacePoints& at,
                                   const FacePoints& then) {
   const auto along = [&](double part, Vec2 first, Vec2 second) {
@@ -267,14 +268,12 @@ struct FaceStep {
   bool touches;                     ///< carries force, or is bonded
   bool closed_a, closed_b;          ///< its ends are closed
   bool switched;                    ///< one of them opens or closes in this step
-  bool switching;  ///< it may need an activation factor (theory, section 6.2): it stored energy at
-                   ///< n - 1, and an end opens or closes in this step or did so in the one before
-  bool unrest;  ///< an end slides, or the springs change or open, or the face has a locked closure
+  bool needs_work;  ///< an end slides, or the springs change or open, or the face has a locked
+                    ///< closure
   double friction, transfer;         ///< as in FaceFields, J
   double damping_work, damping_due;  ///< as in FaceFields, J
   bool decides;                      ///< needs_decision()
-  bool free;                         ///< becomes_free()
-  bool works;                        ///< it carries load, or did so at n - 1
+  bool may_act;                      ///< may_begin_to_act()
   bool rare;                         ///< it is bonded, or is_plain() does not hold
   double depth;                      ///< larger drawn closure, m; 0: it carries nothing
   CornerForces force;
@@ -287,9 +286,9 @@ EDDA_INLINE double half_work(FaceEnds across, FaceEnds along, const EndMotion& m
                 along.b * moved.slip.b);
 }
 
-/// Forces of a face on its corners, N: its pressure, shear and dashpots, and where its ends lie at
-/// their bounds what these push (ends_at_bounds(); `books`).
-template <bool dashpots, bool books>
+/// Forces of a face on its corners, N: its pressure, shear and dashpots; with_work: also those on
+/// the corners that bound the overlap (locked_closure_forces()).
+template <bool dashpots, bool with_work>
 EDDA_INLINE CornerForces force_of(const Face& face, const EdgeGeometry& stands, FaceEnds shear,
                                   FaceEnds damping, FaceEnds shear_damping, FaceEnds bounds) {
   FrameForces on = face.pressure;
@@ -298,7 +297,7 @@ EDDA_INLINE CornerForces force_of(const Face& face, const EdgeGeometry& stands, 
   } else {
     add_shear(on, face, shear);
   }
-  if constexpr (books) push_bounds(on, face.of_first, bounds);
+  if constexpr (with_work) push_bounds(on, face.of_first, bounds);
   return on_corners(on, stands.corners(), face);
 }
 
@@ -310,18 +309,16 @@ EDDA_INLINE void mark_changes(FaceStep& s, const FaceInputs& in, const EdgeGeome
   s.closed_b = s.touches & (face.closure.b > in.noise);
   s.switched =
       (s.closed_a != (old.stored & old.closed_a)) | (s.closed_b != (old.stored & old.closed_b));
-  s.switching = old.stored & (s.switched | old.switched);
-  s.free = becomes_free(in, face.drawn);
+  s.may_act = may_begin_to_act(in, face.drawn);
   s.decides = needs_decision(in, face.gate > 0.0, face.drawn, face.energy > 0.0);
-  s.works = s.touches | old.stored | (old.spring > 0.0);
   s.rare = in.strength.bonded | !is_plain(stands, face.drawn, in.pair);
   s.depth = s.touches ? larger(face.drawn.a, face.drawn.b) : 0.0;
 }
 
 /// Contact update of a face at step n for its edge geometry and its element there. dashpots: some
-/// face of the model has dashpots; limits_given: as in act(); books: with the work terms of the
-/// step; without them the update is exact only where there is no `unrest` (elastic stick).
-template <bool dashpots, bool limits_given, Formulas use, bool books = true>
+/// face of the model has dashpots; limits_given: as in act(); with_work: with the work terms of the
+/// step; without them the update is exact only where there is no `needs_work` (elastic stick).
+template <bool dashpots, bool limits_given, Formulas use, bool with_work = true>
 EDDA_INLINE FaceStep step_of_face(const FaceInputs& in, const EdgeGeometry& stands,
                                   const Face& face) {
   const FacePair& pair = in.pair;
@@ -329,7 +326,7 @@ EDDA_INLINE FaceStep step_of_face(const FaceInputs& in, const EdgeGeometry& stan
   FaceStep s;
   const bool bonded = use == Formulas::all ? in.strength.bonded : false;
   s.touches = (face.energy > 0.0) | (bonded & (face.gate > 0.0));
-  const ShearSprings springs = shear_springs<books>(in, face, s.touches);
+  const ShearSprings springs = shear_springs<with_work>(in, face, s.touches);
   const double spring = springs.spring, per_spring = springs.per_spring;
   const EndMotion moved = motion_of(face, stands.corners(), old.corners, pair.length_ratio);
   EndsOfFace end = ends_of<use>(in, face, moved, springs.kept, s.touches);
@@ -340,9 +337,9 @@ EDDA_INLINE FaceStep step_of_face(const FaceInputs& in, const EdgeGeometry& stan
     give_strikes(s.strike, end);
   }
   const double cohesion = s.touches ? 0.5 * in.strength.cohesion * face.cohesive : 0.0;
-  const EndActs a = act<dashpots, limits_given, use, books>(
+  const EndActs a = act<dashpots, limits_given, use, with_work>(
       in, end.a, spring, per_spring, roots, roots.a, cohesion, s.touches, in.limits.a);
-  const EndActs b = act<dashpots, limits_given, use, books>(
+  const EndActs b = act<dashpots, limits_given, use, with_work>(
       in, end.b, spring, per_spring, roots, roots.b, cohesion, s.touches, in.limits.b);
   s.overlap = springs.overlap;
   s.spring = spring;
@@ -353,11 +350,11 @@ EDDA_INLINE FaceStep step_of_face(const FaceInputs& in, const EdgeGeometry& stan
   s.shear_damping = {a.shear_damping, b.shear_damping};
   const bool slides = (s.shear.a != -spring * s.trial.a) | (s.shear.b != -spring * s.trial.b);
   const bool stressed = (pair.offset.a != 0.0) | (pair.offset.b != 0.0);
-  s.unrest = (spring != old.spring) | (s.touches & (slides | springs.change | stressed));
+  s.needs_work = (spring != old.spring) | (s.touches & (slides | springs.change | stressed));
   s.friction = s.transfer = s.damping_work = s.damping_due = 0.0;
   FaceEnds bounds;
-  if constexpr (books) bounds = ends_at_bounds(face, pair);
-  if constexpr (books) {
+  if constexpr (with_work) bounds = locked_closure_forces(face, pair);
+  if constexpr (with_work) {
     const Lost lost_a = lost({a.force, a.slip}, end.a.trial, spring,
                              {old.spring, old.slip_a, springs.kept}, moved.slip.a, s.touches);
     const Lost lost_b = lost({b.force, b.slip}, end.b.trial, spring,
@@ -369,40 +366,32 @@ EDDA_INLINE FaceStep step_of_face(const FaceInputs& in, const EdgeGeometry& stan
     s.damping_work = half_work(s.damping, s.shear_damping, moved);
     s.damping_due = half_work(old.damping, old.shear_damping, moved);
   }
-  s.force = force_of<dashpots, books>(face, stands, s.shear, s.damping, s.shear_damping, bounds);
+  s.force =
+      force_of<dashpots, with_work>(face, stands, s.shear, s.damping, s.shear_damping, bounds);
   mark_changes(s, in, stands, face);
   return s;
 }
 
 /// A face that has carried nothing for two steps, at n.
 struct OpenFace {
-  FaceEnds closure, xi, eta;
-  double length, gate, cohesive;
+  double gate;     ///< as Face::gate, with the same bits
   bool may_close;  ///< it may be closed, or decide_activity() must be called
 };
-/// With the same bits as step_of_face().
-EDDA_INLINE OpenFace look_at_open_face(const FaceInputs& in, const EdgeGeometry& o) {
+EDDA_INLINE OpenFace test_open_face(const FaceInputs& in, const EdgeGeometry& o) {
   const FacePair& pair = in.pair;
-  OpenFace s;
-  const double drawn_a = o.closure_at_0 + o.closure_slope * o.ma,
-               drawn_b = o.closure_at_0 + o.closure_slope * o.mb;
-  s.closure = closed_by({drawn_a, drawn_b}, o, pair);
+  const FaceEnds drawn{o.closure_at_0 + o.closure_slope * o.ma,
+                       o.closure_at_0 + o.closure_slope * o.mb};
+  const FaceEnds closure = closed_by(drawn, o, pair), gated = gated_closure(drawn.a, drawn.b, pair);
   const double gate = smooth_step((o.cosine - pair.gate_from) * pair.gate_scale).value;
-  s.length = positive_part(o.mb - o.ma);
-  const FaceEnds gated = gated_closure(drawn_a, drawn_b, pair);
   const double deepest = larger(gated.a, gated.b);
   const bool overlap = overlaps(o.ma, o.mb, pair), faded = is_faded(o, deepest, pair);
   const bool on = overlap & !faded & (o.cosine > pair.gate_from) & (o.s2 > 0.0) & (o.r1 > o.r2);
-  s.gate = on ? gate : 0.0;
-  s.cohesive = s.gate * s.length * flush_part(o.cosine);
-  s.xi = {o.ma * o.per_e, o.mb * o.per_e};
-  s.eta = {(o.ma - o.r2) * o.per_f, (o.mb - o.r2) * o.per_f};
-  const bool open = larger(larger(s.closure.a, s.closure.b), deepest) <= 0.0;
-  s.may_close = (on & !open) | needs_decision(in, on, {drawn_a, drawn_b}, false);
-  return s;
+  const bool open = larger(larger(closure.a, closure.b), deepest) <= 0.0;
+  const bool may_close = (on & !open) | needs_decision(in, on, drawn, false);
+  return {on ? gate : 0.0, may_close};
 }
-EDDA_INLINE OpenFace look_at_open_face(const FaceInputs& in) {
-  return look_at_open_face(in, geometry_of_edges(in.at, in.pair));
+EDDA_INLINE OpenFace test_open_face(const FaceInputs& in) {
+  return test_open_face(in, geometry_of_edges(in.at, in.pair));
 }
 
 }  // namespace edda

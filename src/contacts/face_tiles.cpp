@@ -25,7 +25,7 @@ void halve(std::vector<Id>& blocks, const std::vector<Vec2>& place, std::size_t 
     high = {std::max(high.x, p.x), std::max(high.y, p.y)};
   }
   const bool across = high.x - low.x >= high.y - low.y;
-  // Tiles are whole but for the last one, so that all have the same work.
+  // As few tiles as possible, of equal size, so that all cost the same.
   const std::size_t tiles = (last - first + most - 1) / most;
   const std::size_t middle = first + (last - first) * (tiles / 2) / tiles;
   const auto at = [&](std::size_t q) { return blocks.begin() + static_cast<std::ptrdiff_t>(q); };
@@ -239,7 +239,7 @@ void divide_blocks(FaceTiles& t, const BlockSet& b, const State& state, bool wit
   t.tiles.clear();
   for (std::size_t i = 0; i < b.size(); ++i) {
     if (state.alive[i] == 0 || (b.fixed[i] != 0 && !with_fixed)) continue;
-    place[i] = centroid(state.x, state.y, i);
+    place[i] = centroid(state.position, i);
     t.blocks.push_back(static_cast<Id>(i));
   }
   std::vector<std::size_t> ends;

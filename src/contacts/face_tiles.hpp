@@ -98,8 +98,11 @@ using LaneBits = std::uint64_t;
 namespace lane_bits {
 // Remembered from step to step (FaceBefore).
 inline constexpr unsigned stored = 0, on = 8, closed_a = 16, closed_b = 24, switched = 32;
-// Found in a step (FaceStep).
-inline constexpr unsigned decides = 0, switching = 8, works = 16, rare = 24, busy = 32, opens = 40,
+// Found in a step; `switching`: it may need an activation factor (theory, section 6.2): it stored
+// energy at n - 1, and an end opens or closes in this step or did so in the one before; `loaded`:
+// it carries load, or did so at n - 1; `rare`: it is bonded, or is_plain() does not hold; `busy`:
+// it does work, or opens.
+inline constexpr unsigned decides = 0, switching = 8, loaded = 16, rare = 24, busy = 32, opens = 40,
                           slides = 48, fails = 56;
 constexpr LaneBits field(unsigned of) {
   return LaneBits{0xff} << of;
@@ -110,16 +113,17 @@ constexpr bool test(LaneBits bits, unsigned of, std::size_t lane) {
 }  // namespace lane_bits
 
 /// Kernel class of a face, by which the faces of a tile are sorted: carries load, by the short
-/// formulas (is_plain()) or by the long ones, without or with work; closed without load; open and
-/// evaluated; skipped with a narrow margin (resting) or a wide one (asleep; tile_sleep.hpp).
+/// formulas (is_plain()) or by the long ones, without or with work; open with a corner on the edge;
+/// open and evaluated; skipped with a narrow margin (resting) or a wide one (asleep;
+/// tile_sleep.hpp).
 namespace face_kind {
 enum Kind : std::uint8_t {
-  short_rest,
+  short_stick,
   short_work,
   long_work,
-  long_rest,
+  long_stick,
   touching,
-  looked_at,
+  open_awake,
   resting,
   asleep
 };
@@ -136,7 +140,7 @@ struct TileSleep {
   double strayed = 0.0;    ///< m: upper bound of the distance of any vertex from its path
   double least = 0.0;      ///< m: smallest `rest` of the chunks that rest
   double fastest = 0.0;    ///< m: motion along the paths in a step, of any vertex
-  unsigned age = 0;        ///< steps since the skipped faces were chosen, or more
+  unsigned age = 0;        ///< steps since the skipped faces were chosen, or one fewer
   unsigned length = 32;    ///< steps for which they may be skipped
   bool calm = false;       ///< few faces had changed their class then
   bool over = true;        ///< the choice of skipped faces is invalid
@@ -216,7 +220,8 @@ struct FaceTiles {
   std::vector<std::uint8_t> bonds;  ///< [chunks] 1: a face in it is bonded or carries tension
   std::vector<double> rest;  ///< [chunks] m: skip margin (TileSleep): its faces are not evaluated
                              ///< until an end of their edges deviates by more; 0: they are
-  std::vector<std::uint8_t> idle[2];   ///< [chunks] 1: no face carried load in that step
+  std::vector<std::uint8_t>
+      idle[2];  ///< [chunks] 1: no face carried load in that step or at its start
   std::vector<std::uint8_t> fresh[2];  ///< [chunks] 1: `work` holds the work of that step
 
   /// Copies of face k: places [nf][2] in chunks (8 chunk + lane), first that which is owned; no_id:
@@ -243,7 +248,7 @@ struct FaceTiles {
   std::vector<LaneBits> found[2];    ///< [chunks] of that step
   AlignedNumbers sums;               ///< [chunks][sum_columns][8]
   AlignedNumbers limits;  ///< [chunks][2][8] LimitColumns; empty: they follow from normal forces.
-                          ///< Faces must not change their places meanwhile, as those that sleep do
+                          ///< While they are given no faces may be skipped: these change places
   std::vector<LaneBits> ever;   ///< [chunks] `opens`, `slides` of any step until n - 1
   std::vector<double> deepest;  ///< [chunks] as FaceStep::depth, largest in the step so far, m;
                                 ///< of a new list an upper bound of that
@@ -256,7 +261,7 @@ struct FaceTiles {
   }
   /// Of those found in the step:
   bool has_found(unsigned of, std::size_t k) const { return bit_of(found[now], of, k); }
-  /// Of any step until then (FaceSumColumns):
+  /// Of any step up to n - 1 (FaceSumColumns):
   bool has_ever(unsigned of, std::size_t k) const { return bit_of(ever, of, k); }
   /// Whether anything is remembered of the faces of a chunk (TileNumbers).
   bool holds(std::size_t chunk) const { return numbers[tile_of_chunk[chunk]].holds(chunk); }
@@ -276,14 +281,14 @@ struct FaceTiles {
   }
 };
 
-/// Divides the blocks among tiles by their places: halves of halves, until none has more than
-/// `most`. Fixed blocks are left out unless `with_fixed`; so are excavated ones.
+/// Divides the blocks among tiles by their places, across the longer side first, until none has
+/// more than `most`. Fixed blocks are left out unless `with_fixed`; so are excavated ones.
 void divide_blocks(FaceTiles& tiles, const BlockSet& blocks, const State& state, bool with_fixed,
                    std::size_t most = blocks_per_tile);
 
 /// Gives each face of the list its places in the tiles, and all that has a size its size. Blocks
-/// must have been divided. All faces are awake; nothing is remembered. kind: [nf] what each face
-/// does: faces of lower kinds come first in a tile (contacts/tile_packing.hpp), and those that
+/// must have been divided. All faces are awake; nothing is remembered. kind: [nf] their kernel
+/// classes: faces of lower ones come first in a tile (contacts/tile_packing.hpp), and those that
 /// carry load or have done work have room in TileNumbers.
 void lay_out(FaceTiles& tiles, const FaceSet& faces, const BlockSet& blocks,
              const std::vector<std::uint8_t>& kind);

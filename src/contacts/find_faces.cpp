@@ -154,9 +154,9 @@ void complete_list(FaceSet& c, const BlockSet& b, const LawTable& laws) {
     c.facing_end[k] = b.next[c.facing[k]];
   }
   list_by_edge(c, b.vertex_count());
-  c.chunk_fails.assign(c.chunks(), 0);
+  c.group_fails.assign(c.failure_groups(), 0);
   for (std::size_t k = 0; k < n; ++k) {
-    if (c.is(FaceFlag::fails, k)) c.chunk_fails[k / FaceSet::chunk] = 1;
+    if (c.is(FaceFlag::fails, k)) c.group_fails[k / FaceSet::failure_group] = 1;
   }
 }
 

@@ -12,17 +12,16 @@ bool crosses(Vec2 p, Vec2 s, Vec2 t) {
 
 }  // namespace
 
-Inside inside_of(const BlockSet& b, const Pose& pose, Vec2 p, std::size_t j) {
+double depth_inside(const BlockSet& b, const Pose& pose, Vec2 p, std::size_t j) {
   bool in = false;
-  Inside found{std::numeric_limits<double>::infinity(), no_id};
+  double nearest = std::numeric_limits<double>::infinity();
   for (Id e = b.vertex_begin[j]; e < b.vertex_begin[j + 1]; ++e) {
     const Vec2 s = at(pose.x, pose.y, e), t = at(pose.x, pose.y, b.next[e]);
     const double distance = distance_to_segment(p, s, t);
-    if (distance < found.depth) found = {distance, e};
+    if (distance < nearest) nearest = distance;
     if (crosses(p, s, t)) in = !in;
   }
-  if (!in) found.depth = -found.depth;
-  return found;
+  return in ? nearest : -nearest;
 }
 
 bool lies_inside(const BlockSet& b, const Pose& pose, Vec2 p, std::size_t j) {
@@ -30,7 +29,7 @@ bool lies_inside(const BlockSet& b, const Pose& pose, Vec2 p, std::size_t j) {
   for (Id e = b.vertex_begin[j]; e < b.vertex_begin[j + 1]; ++e) {
     if (crosses(p, at(pose.x, pose.y, e), at(pose.x, pose.y, b.next[e]))) in = !in;
   }
-  return in && inside_of(b, pose, p, j).depth > 0.0;
+  return in && depth_inside(b, pose, p, j) > 0.0;
 }
 
 }  // namespace edda

@@ -8,14 +8,9 @@
 
 namespace edda {
 
-/// Position of a point relative to a block.
-struct Inside {
-  double depth;  ///< distance from the block's boundary, m; negative outside
-  Id edge;       ///< the nearest edge
-};
-
-/// Position of p relative to block j in the given pose. O(number of its edges).
-Inside inside_of(const BlockSet& blocks, const Pose& pose, Vec2 p, std::size_t j);
+/// Distance of p from the boundary of block j in the given pose, m; negative outside. O(number of
+/// its edges).
+double depth_inside(const BlockSet& blocks, const Pose& pose, Vec2 p, std::size_t j);
 
 /// Whether p lies inside block j, and not on its boundary; for most blocks quicker than the depth.
 bool lies_inside(const BlockSet& blocks, const Pose& pose, Vec2 p, std::size_t j);

@@ -103,8 +103,8 @@ void lift(FaceSet& c, const BlockSet& b, const Pose& pose, const LawTable& laws,
   const auto affords = [&](double rise, const Lift& l) {
     return 0.5 * rise * l.normal <= std::min(l.friction, c.friction_work[k]);
   };
-  // The more it opens, the more of the slip is elastic: to where the opening is what is due, linear
-  // in between.
+  // The dilation due falls as the opening grows, since more of the slip becomes elastic: the
+  // opening that equals it, by linear interpolation.
   double rise = most * most / (2.0 * most - std::min(after(most).due, most));
   Lift done = after(rise);
   if (!affords(rise, done)) {
@@ -118,12 +118,12 @@ void lift(FaceSet& c, const BlockSet& b, const Pose& pose, const LawTable& laws,
     done = after(rise);
   }
   c.risen[k] = rise;
-  c.risen_by[k] = 0.5 * rise * done.normal;
-  c.friction_work[k] -= c.risen_by[k];
+  c.dilation_work[k] = 0.5 * rise * done.normal;
+  c.friction_work[k] -= c.dilation_work[k];
   open_by(c, k, rise);
 }
 
-/// A joint that has opened by less than `hair` continues to dilate as it slips, since its
+/// A joint that has opened by less than dilation_gap continues to dilate as it slips, since its
 /// asperities still face each other; the dilation does not exceed the gap, so it does not close the
 /// joint.
 void take_slip_while_open(FaceSet& c, const BlockSet& b, const Pose& pose, const LawTable& laws,

@@ -86,10 +86,8 @@ LawTable build_laws(const Model& model) {
       return a.between < b.between;
     });
   }
-  if (table.rows.empty()) {  // a single block touches nothing: any law will do
-    table.rows.push_back({0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, false});
-    table.rank.push_back(0);
-  }
+  table.rows.push_back({0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, true});
+  table.rank.push_back(static_cast<std::uint16_t>(table.rank.size()));
   table.divided_by.assign(table.rows.size(), 1.0);
   return table;
 }

@@ -44,18 +44,19 @@ struct FaceSides {
                       ///< between large ones does not sink into them, m/Pa
 };
 FaceSides sides_of(const BlockSet& blocks, Id edge, Id facing);
-/// The same against a block that is much larger, the softest that there is.
+/// The same against a much larger block, with the largest compliance that sides_of() allows.
 FaceSides beside_much_larger(const BlockSet& blocks, Id edge);
 
 struct LawTable {
-  std::vector<Law> rows;  ///< in the order of Model::joints, then the built-in glued law
+  std::vector<Law> rows;  ///< those of Model::joints, and last the intact rock, which no face has
   std::vector<std::uint16_t>
       rank;  ///< [rows] order: lower friction angle first, then cohesion, tension, name
   std::vector<double> divided_by;  ///< [rows] strength factor by which the strength in `rows` is
                                    ///< divided (contacts/strength.hpp)
-  bool any_changes = false;        ///< a row has `changes`
-  bool any_dashpots = false;       ///< a row has `dashpots`
-  ContactSprings penalty{};        ///< of joints without kn
+  double rock_divided_by() const { return divided_by.back(); }
+  bool any_changes = false;   ///< a row has `changes`
+  bool any_dashpots = false;  ///< a row has `dashpots`
+  ContactSprings penalty{};   ///< of joints without kn
   double thickness = 1.0;
   Index default_law = none;
   /// A [[contact_pair]]: two joints or two materials, the smaller index first, with their law;

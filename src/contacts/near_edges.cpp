@@ -89,7 +89,7 @@ EDDA_INLINE double cosine_within(const EdgesView& v, const Reach& reach, std::si
   const double reached = reach.apart * (per_e + per_f) - dot(u, w) * (per_e * per_f);
   const double overlap = overlap_behind(p1, u, per_e * u, q1, q2, per_f * w);
   const double acting = smaller(larger(overlap + reach.apart, 0.0), reach.behind);
-  const double within = reach.apart + (aspect_from + aspect_range) * acting;
+  const double within = reach.apart + acting * (1.0 / aspect_from);
   return nearest < within * within ? reached : -2.0;
 }
 
@@ -178,7 +178,7 @@ bool holds(NearEdges& known, const BlockSet& b, const State& state, const Pose& 
   const double furthest = reach.furthest();
   if (known.lists == 0 || !(furthest < known.reach)) return false;
   if (known.reach > wider * wider * furthest) return false;  // it is from a time of faster motion
-  const Standing then{known.built_x, known.built_y, known.reach, known.lists};
+  const ListOrigin then{known.built_x, known.built_y, known.reach, known.lists};
   // The part takes up the rounding of distances.
   constexpr double part = 1.0 - 1e-9;
   return furthest + largest_approach(known.groups, b, state, pose, then) < part * known.reach;

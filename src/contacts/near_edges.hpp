@@ -24,16 +24,16 @@ struct AngleGate {
 };
 AngleGate angle_gate(const BlockSet& blocks, Id e, Id f);
 
-/// Which edges are near each other: those of which an end of one is nearer than `apart` (m) to the
-/// other. Of edges that interpenetrate, which act within (aspect_from + aspect_range) times
-/// their overlap along each other, `behind` (m) at most, that is the candidate range beyond.
+/// Candidate range: edges are near each other where an end of one is nearer than `apart` (m) to the
+/// other. Edges that lie behind each other with the overlap l, `behind` (m) at most, act up to the
+/// closure l/aspect_from, by which the range is larger.
 struct Reach {
   double apart;
   double behind = 0.0;
   // A number is a reach of edges apart. NOLINTNEXTLINE(google-explicit-constructor)
   Reach(double within, double penetrated = 0.0) : apart(within), behind(penetrated) {}
   /// No pair of edges farther from each other than this is near, m.
-  double furthest() const { return apart + (aspect_from + aspect_range) * behind; }
+  double furthest() const { return apart + behind / aspect_from; }
 };
 
 /// Pairs of edges that stood within a wider reach some time ago. As long as neighbours have not

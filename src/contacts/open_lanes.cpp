@@ -100,14 +100,14 @@ EDDA_INLINE bool stays_as_it_is(const ChunkColumns& c, const FacePair& pair, con
 }
 
 /// Whether the edges are opposed and a corner touches the other edge, to rounding.
-EDDA_INLINE bool touches_as_drawn(const FacePair& pair, const EdgeGeometry& o, double noise) {
+EDDA_INLINE bool corner_touches_edge(const FacePair& pair, const EdgeGeometry& o, double noise) {
   const double most = larger(pair.offset.a + o.closure_at_0 + o.closure_slope * o.ma,
                              pair.offset.b + o.closure_at_0 + o.closure_slope * o.mb);
   return (o.cosine > pair.gate_from) & overlaps(o.ma, o.mb, pair) & (most > -noise);
 }
 
-EDDA_INLINE void look_at_lane(const ChunkColumns& c, std::size_t k, const RestMargins& margins,
-                              double steps, LaneBits& stay, LaneBits& near) {
+EDDA_INLINE void test_open_lane(const ChunkColumns& c, std::size_t k, const RestMargins& margins,
+                                double steps, LaneBits& stay, LaneBits& near) {
   const FacePair pair = pair_of(c, k);
   const FacePoints at = points_of(*c.e, *c.f, k), pace = points_of(*c.e_then, *c.f_then, k);
   const EdgeGeometry o = geometry_of_edges(at, pair);
@@ -118,7 +118,7 @@ EDDA_INLINE void look_at_lane(const ChunkColumns& c, std::size_t k, const RestMa
   };
   static_assert(rest_levels == 2);  // no loop within a loop over lanes
   stay |= stays_at(0) | stays_at(1);
-  near |= touches_as_drawn(pair, o, c.noise) ? bit : 0;
+  near |= corner_touches_edge(pair, o, c.noise) ? bit : 0;
 }
 
 }  // namespace
@@ -128,7 +128,7 @@ EDDA_VECTOR OpenLanes open_lanes(const ChunkView& given, const RestMargins& marg
   const RestMargins copy = margins;
   LaneBits stay = 0, near = 0;
 #pragma omp simd reduction(| : stay, near)
-  for (std::size_t k = 0; k < lanes; ++k) look_at_lane(c, k, copy, steps, stay, near);
+  for (std::size_t k = 0; k < lanes; ++k) test_open_lane(c, k, copy, steps, stay, near);
   return {near, stay};
 }
 

@@ -21,8 +21,8 @@
 
 namespace edda {
 
-/// The laws of the model with their strength divided by factors[row]; glued rows do not change.
-/// factors: [rows], above zero.
+/// The laws of the model with their strength divided by factors[row]; of glued rows it has no
+/// effect. factors: [rows], above zero.
 LawTable divided_laws(const Model& model, const std::vector<double>& factors);
 
 /// What the strength of a face depends on beside its law and its bond.
@@ -43,8 +43,8 @@ StrengthInForce strength_of(const LawTable& laws, std::uint16_t law, BondState b
 void put_in_force(FaceSet& faces, const StrengthInForce& strength, std::size_t k);
 /// Puts in force for all faces what follows from their states: that of n - 1, as in a step.
 void put_in_force(FaceSet& faces, const FaceStates& states, const LawTable& laws);
-/// The bond of face k, with its strength at this slip where it carries nothing. It carries tension
-/// if its law has residual tensile strength; an intact one is told otherwise by bond_faces().
+/// Sets the bond of face k, and its strength at this slip without normal force. The face carries
+/// tension if its law has residual tensile strength; of an intact bond bond_faces() decides.
 void set_bond(FaceSet& faces, const LawTable& laws, BondState bond, double slip, std::size_t k);
 /// Takes the bond of face k, which then has the residual strength of its law, in tension too.
 void set_residual_strength(FaceSet& faces, const LawTable& laws, std::size_t k);

@@ -49,7 +49,7 @@ void load_changed(FaceTiles& t, const FaceSet& c, const Pose& pose, std::size_t 
 void update_joint_laws(FaceSet& c, FaceTiles& t, const BlockSet& b, const Pose& pose,
                        const LawTable& laws) {
   c.risen.assign(c.size(), 0.0);
-  c.risen_by.assign(c.size(), 0.0);
+  c.dilation_work.assign(c.size(), 0.0);
   std::vector<std::uint8_t> changed(c.size(), 0);
   constexpr std::size_t cost = 100;
   parallel_for(
@@ -73,7 +73,7 @@ void update_joint_laws(FaceSet& c, FaceTiles& t, const BlockSet& b, const Pose& 
 void begin_step(FaceSet& c, FaceTiles& t, const BlockSet& b, const Pose& pose,
                 const LawTable& laws) {
   c.risen.clear();
-  c.risen_by.clear();
+  c.dilation_work.clear();
   if (c.gluing) glue_pressed(c, t, b, pose.x1, pose.y1);
   next_step(c, t);
   if (laws.any_changes) update_joint_laws(c, t, b, pose, laws);

@@ -7,18 +7,18 @@
 
 namespace edda {
 
-/// update_joint_law() of all faces whose law changes, from n to n + 1, which FaceTiles::now must be
-/// already.
+/// update_joint_law() of all faces whose law changes, from n to n + 1. FaceTiles::now must be that
+/// of n + 1.
 void update_joint_laws(FaceSet& faces, FaceTiles& tiles, const BlockSet& blocks, const Pose& pose,
                        const LawTable& laws);
 
-/// Between step n, whose state becomes final, and the evaluation at n + 1 (pose.x): adds up its
-/// work, and decides what a step decides of joints before it. pose.x1: the vertices at n.
+/// Makes step n final, before the evaluation at n + 1 (pose.x): accumulates its work, and updates
+/// the joint laws for n + 1. pose.x1: the vertices at n.
 void begin_step(FaceSet& faces, FaceTiles& tiles, const BlockSet& blocks, const Pose& pose,
                 const LawTable& laws);
 
-/// Glues the faces that have been pressed for a whole step and are closed from end to end at its
-/// end (glue_if_whole()), which FaceTiles::now is; x, y: the vertices then.
+/// Glues the faces that have been pressed for a whole step and are closed from end to end after it
+/// (glue_if_whole()). FaceTiles::now must be that of its end; x, y: the vertices then.
 void glue_pressed(FaceSet& faces, FaceTiles& tiles, const BlockSet& blocks,
                   const std::vector<double>& x, const std::vector<double>& y);
 

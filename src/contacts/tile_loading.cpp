@@ -100,7 +100,7 @@ void load_memory(FaceTiles& t, const FaceSet& c, const FaceFields& m, const std:
 bool slides(const FaceFields& m) {
   return is_cut(FaceEnds{m.trial_a, m.trial_b}, FaceEnds{m.slip_a, m.slip_b});
 }
-/// Whether the work of a step must be kept: no_work() does not hold.
+/// Whether the work of the step differs from no_work() and must be kept.
 bool is_busy(const FaceFields& m) {
   const bool sticks = m.shear_a == -m.spring * m.slip_a && m.shear_b == -m.spring * m.slip_b;
   return slides(m) || !sticks || m.friction_work != 0.0 || m.transfer != 0.0 ||
@@ -113,7 +113,7 @@ struct FaceState {
 
   /// Whether it stored energy at n - 1 and stores none now.
   bool opens() const { return before.energy > 0.0 && now.energy == 0.0; }
-  bool works() const { return opens() || is_busy(now); }
+  bool needs_record() const { return opens() || is_busy(now); }
 };
 FaceState state_of(const FaceStates& states, std::size_t k) {
   return {states.now[k], states.before[k]};
@@ -137,13 +137,13 @@ bool remembers(const FaceFields& m) {
 
 /// What each face does as far as its states tell, [nf].
 std::vector<std::uint8_t> kinds_by_states(const FaceStates& states) {
-  std::vector<std::uint8_t> kind(states.now.size(), face_kind::looked_at);
+  std::vector<std::uint8_t> kind(states.now.size(), face_kind::open_awake);
   for (std::size_t k = 0; k < kind.size(); ++k) {
     const FaceState f = state_of(states, k);
-    if (f.works() || is_busy(f.before)) {
+    if (f.needs_record() || is_busy(f.before)) {
       kind[k] = face_kind::long_work;
     } else if (remembers(f.now) || remembers(f.before)) {
-      kind[k] = face_kind::long_rest;
+      kind[k] = face_kind::long_stick;
     }
   }
   return kind;
@@ -154,14 +154,14 @@ void load_copy(FaceTiles& t, const FaceSet& c, const FaceState& f, const Pose& p
                std::size_t place, std::size_t k) {
   const int now = t.now, old = 1 - t.now;
   const bool carried = remembers(f.before);
-  const bool worked = remembers(f.now) || carried || f.works();
+  const bool worked = remembers(f.now) || carried || f.needs_record();
   const std::size_t q = place / lanes;
   load_memory(t, c, f.now, pose.x, pose.y, now, place, k);
   load_memory(t, c, f.before, pose.x1, pose.y1, old, place, k);
   load_work(t, f.now, f.opens(), now, place);
   load_work(t, f.before, false, old, place);
   load_sums(t, c, place, k);
-  set_bit(t.found[now][q], lane_bits::works, place % lanes, worked);
+  set_bit(t.found[now][q], lane_bits::loaded, place % lanes, worked);
   if (worked) t.idle[now][q] = 0;
   if (carried) t.idle[old][q] = 0;
 }

@@ -6,9 +6,9 @@
 namespace edda {
 
 /// Kernel class of a face that carries load.
-constexpr face_kind::Kind kind_of_working(bool short_formulas, bool works) {
-  if (short_formulas) return works ? face_kind::short_work : face_kind::short_rest;
-  return works ? face_kind::long_work : face_kind::long_rest;
+constexpr face_kind::Kind kind_of_loaded(bool short_formulas, bool dissipates) {
+  if (short_formulas) return dissipates ? face_kind::short_work : face_kind::short_stick;
+  return dissipates ? face_kind::long_work : face_kind::long_stick;
 }
 
 /// Lets the faces at two places of a tile change places, with all that they remember and have

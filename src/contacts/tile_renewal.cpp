@@ -11,9 +11,9 @@
 namespace edda {
 namespace {
 
-/// What each face of the old list did, [nf].
+/// Kernel classes of the faces of the old list, [nf].
 std::vector<std::uint8_t> kinds_of(const FaceTiles& t) {
-  std::vector<std::uint8_t> kind(t.place.size(), face_kind::looked_at);
+  std::vector<std::uint8_t> kind(t.place.size(), face_kind::open_awake);
   for (const Tile& tile : t.tiles) {
     for (Id q = tile.first_chunk; q < tile.last_chunk; ++q) {
       for (std::size_t lane = 0; lane < lanes; ++lane) {
@@ -24,8 +24,8 @@ std::vector<std::uint8_t> kinds_of(const FaceTiles& t) {
         };
         if (t.rest[q] > 0.0) {
           kind[k] = face_kind::asleep;
-        } else if (found(lane_bits::works)) {
-          kind[k] = kind_of_working(!found(lane_bits::rare), found(lane_bits::busy));
+        } else if (found(lane_bits::loaded)) {
+          kind[k] = kind_of_loaded(!found(lane_bits::rare), found(lane_bits::busy));
         }
       }
     }
@@ -33,7 +33,7 @@ std::vector<std::uint8_t> kinds_of(const FaceTiles& t) {
   return kind;
 }
 
-/// The tiles of both lists, and what one face of the old list did.
+/// The tiles of both lists, with the faces and vertices of the new one.
 struct Renewal {
   FaceTiles& next;
   const FaceTiles& old;
@@ -52,7 +52,7 @@ void copy_step(const Renewal& r, int which, std::size_t place, std::size_t from)
   const std::size_t q = place / lanes, p = from / lanes;
   copy_bits(r.next.bits[which][q], place % lanes, r.old.bits[which][p], from % lanes);
   copy_bits(r.next.found[which][q], place % lanes, r.old.found[which][p], from % lanes);
-  if (lane_bits::test(r.old.found[which][p], lane_bits::works, from % lanes))
+  if (lane_bits::test(r.old.found[which][p], lane_bits::loaded, from % lanes))
     r.next.idle[which][q] = 0;
   if (!r.next.holds(q)) return;
   for_memory(r.next,
@@ -101,7 +101,7 @@ void renew_copy(const Renewal& r, std::size_t tile, std::size_t place, Id old, b
 void renew_tiles(FaceTiles& t, const FaceSet& c, const BlockSet& b, const Pose& pose,
                  const std::vector<Id>& old_row) {
   const std::vector<std::uint8_t> did = kinds_of(t);
-  std::vector<std::uint8_t> kind(c.size(), face_kind::looked_at);
+  std::vector<std::uint8_t> kind(c.size(), face_kind::open_awake);
   for (std::size_t k = 0; k < c.size(); ++k) {
     if (old_row[k] != no_id) kind[k] = did[old_row[k]];
   }

@@ -50,7 +50,7 @@ FaceRow face_row(const FaceSet& c, const FaceTiles& t, const BlockSet& b, const 
   FaceFields& m = row.state;
   m = remembered(t, t.now, k);
   take_element(m, face);
-  const FaceEnds shear{m.shear_a, m.shear_b}, bounds = ends_at_bounds(face, pair);
+  const FaceEnds shear{m.shear_a, m.shear_b}, bounds = locked_closure_forces(face, pair);
   // The formula of the step: with and without dashpots the sums round differently.
   row.force = t.dashpots ? force_of<true, true>(face, stands, shear, {m.damping_a, m.damping_b},
                                                 {m.shear_damping_a, m.shear_damping_b}, bounds)
@@ -83,7 +83,7 @@ bool stays_open(const FaceTiles& t, const FaceSet& c, const BlockSet& b, const P
   in.noise = c.noise;
   const std::size_t place = t.place[k][0];
   in.before.on = lane_bits::test(t.bits[1 - t.now][place / lanes], lane_bits::on, place % lanes);
-  const OpenFace s = look_at_open_face(in);
+  const OpenFace s = test_open_face(in);
   return !s.may_close && (s.gate > 0.0) == in.before.on;
 }
 

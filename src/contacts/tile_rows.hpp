@@ -14,7 +14,7 @@ FaceFields remembered(const FaceTiles& tiles, std::size_t k);
 /// The same of step n (which = FaceTiles::now) or n - 1.
 FaceFields remembered(const FaceTiles& tiles, int which, std::size_t k);
 
-/// Face k at n, which FaceTiles::now is.
+/// Face k at n; FaceTiles::now must be that of n.
 FaceRow face_row(const FaceSet& faces, const FaceTiles& tiles, const BlockSet& blocks,
                  const Pose& pose, std::size_t k);
 

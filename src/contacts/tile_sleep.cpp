@@ -16,7 +16,7 @@ namespace {
 /// changes.
 constexpr unsigned shortest_sleep = 32, longest_sleep = 256;
 
-/// Faces rest by this part of the margin by which others sleep.
+/// Margin of resting faces, as a part of that of sleeping ones.
 constexpr double rest_part = 0.2;
 
 RestMargins margins_of(const SweepScene& scene, const TileSleep& sleep) {
@@ -94,8 +94,8 @@ bool note_strayed(TileSleep& sleep, SweepScratch& scratch) {
   return any;
 }
 
-/// The wider the margin, the fewer faces are skipped; the narrower, the more often they are chosen
-/// again: somewhat more than what the last margin would have had to be.
+/// The next margin: 1.5 times the deviation that the last period would have reached in full. With a
+/// wider one fewer faces are skipped, a narrower one is exceeded sooner.
 double next_margin(const TileSleep& sleep, double strayed, double least) {
   constexpr double more = 1.5, change = 4.0, first = 4.0;
   if (sleep.age == 0) return std::max(first * sleep.fastest, least);
@@ -128,10 +128,11 @@ void begin_sleep(const SweepScene& scene, TileSleep& sleep, SweepScratch& scratc
   sleep.over = false;
 }
 
-constexpr std::uint8_t rested = 8;  ///< and it rested or slept before
+constexpr std::uint8_t was_skipped =
+    8;  ///< added to the class of a face that was skipped until now
 
-/// Where fewer faces than this part of the edges would rest, none does: to see whether they may
-/// go on takes as long as to look at them.
+/// Where fewer faces than this part of the edges would rest, none does: to check their margins
+/// takes as long as to test them.
 constexpr double worth_resting = 0.25;
 
 /// Fills SweepScratch::kind. Returns how many faces there are of each kind.
@@ -152,24 +153,24 @@ std::array<Id, face_kinds> classify(FaceTiles& t, const SweepScene& scene, std::
     view.f = &f;
     view.e_then = &pace_e;
     view.f_then = &pace_f;
-    const LaneBits working = t.found[old][q] >> lane_bits::works & lane_bits::field(0);
+    const LaneBits loaded = t.found[old][q] >> lane_bits::loaded & lane_bits::field(0);
     const OpenLanes open =
-        working == lane_bits::field(0) ? OpenLanes{} : open_lanes(view, margins, of.sleep.length);
+        loaded == lane_bits::field(0) ? OpenLanes{} : open_lanes(view, margins, of.sleep.length);
     for (std::size_t lane = 0; lane < lanes; ++lane) {
       const auto found = [&](unsigned what) {
         return lane_bits::test(t.found[old][q], what, lane);
       };
       unsigned kind =
-          lane_bits::test(open.near, 0, lane) ? face_kind::touching : face_kind::looked_at;
+          lane_bits::test(open.near, 0, lane) ? face_kind::touching : face_kind::open_awake;
       for (unsigned level = 0; level < rest_levels; ++level) {
         if (lane_bits::test(open.stay, lanes * level, lane)) kind = face_kind::resting + level;
       }
-      if (found(lane_bits::works))
-        kind = kind_of_working(!found(lane_bits::rare), found(lane_bits::busy));
+      if (found(lane_bits::loaded))
+        kind = kind_of_loaded(!found(lane_bits::rare), found(lane_bits::busy));
       if (t.face[q * lanes + lane] == no_id) kind = face_kind::asleep;
       ++count[kind];
       const bool rests = t.rest[q] > 0.0 || !t.numbers[tile].holds(q);
-      *next++ = static_cast<std::uint8_t>(kind | (rests ? rested : 0));
+      *next++ = static_cast<std::uint8_t>(kind | (rests ? was_skipped : 0));
     }
   }
   Id resting = 0;
@@ -178,11 +179,11 @@ std::array<Id, face_kinds> classify(FaceTiles& t, const SweepScene& scene, std::
   if (resting >= worth_resting * of.slots()) return count;
   for (std::size_t n = 0; n < scratch.kind.size(); ++n) {
     std::uint8_t& kind = scratch.kind[n];
-    const std::uint8_t was = kind % rested;
+    const std::uint8_t was = kind % was_skipped;
     if (was < face_kind::resting || t.face[of.first_chunk * lanes + n] == no_id) continue;
-    kind = static_cast<std::uint8_t>(face_kind::looked_at | (kind & rested));
+    kind = static_cast<std::uint8_t>(face_kind::open_awake | (kind & was_skipped));
     --count[was];
-    ++count[face_kind::looked_at];
+    ++count[face_kind::open_awake];
   }
   return count;
 }
@@ -194,7 +195,8 @@ Id chunks_awake(const Tile& of, const std::array<Id, face_kinds>& count) {
   return (awake + faces - 1) / faces;
 }
 
-/// Corners of a face that wakes at n - 1; its gate has remained as it was.
+/// Computes the corners at n - 1 of a face that wakes; its gate has not changed while it was
+/// skipped.
 void recall_corners(FaceTiles& t, const FaceSet& faces, const Pose& pose, std::size_t place) {
   load_corners(t, coordinates_at(faces, pose.x1, pose.y1, t.face[place]), 1 - t.now, place);
 }
@@ -213,13 +215,13 @@ void make_room(FaceTiles& t, const SweepScene& scene, std::size_t tile, std::siz
 }
 
 /// Marks of a chunk after faces have come and gone.
-void mark_chunk(FaceTiles& t, std::size_t q, bool looked_at) {
+void mark_chunk(FaceTiles& t, std::size_t q, bool open_awake) {
   const int now = t.now, old = 1 - t.now;
   const auto any = [&](unsigned of) { return (t.found[old][q] & lane_bits::field(of)) != 0; };
-  const std::uint8_t idle = any(lane_bits::works) ? 0 : 1;
+  const std::uint8_t idle = any(lane_bits::loaded) ? 0 : 1;
   t.plain[q] = any(lane_bits::rare) ? 0 : 1;
   t.idle[old][q] = t.idle[now][q] = idle;
-  if (looked_at) return;
+  if (open_awake) return;
   t.bits[old][q] &= lane_bits::field(lane_bits::on);
   t.bits[now][q] = t.bits[old][q];
   t.found[old][q] = t.found[now][q] = 0;
@@ -232,7 +234,7 @@ double rest_of(const FaceTiles& t, std::size_t q, const std::uint8_t* kind,
                const RestMargins& margins) {
   double rest = margins.back();
   for (std::size_t lane = 0; lane < lanes; ++lane) {
-    const unsigned does = kind[lane] % rested;
+    const unsigned does = kind[lane] % was_skipped;
     if (t.face[q * lanes + lane] == no_id) continue;
     if (does < face_kind::resting) return 0.0;
     rest = std::min(rest, margins[does - face_kind::resting]);
@@ -330,7 +332,7 @@ void let_sleep(FaceTiles& t, const SweepScene& scene, std::size_t tile, SweepScr
     end[r] = begin += count[r];
   }
   const std::size_t first = of.first_chunk * lanes;
-  const auto of_kind = [&](std::size_t n) { return std::size_t{kind[n]} % rested; };
+  const auto of_kind = [&](std::size_t n) { return std::size_t{kind[n]} % was_skipped; };
   for (std::size_t r = 0; r < face_kinds; ++r) {
     for (std::size_t n = next[r]; n < end[r]; ++n) {
       while (of_kind(n) != r) {
@@ -359,7 +361,7 @@ void let_sleep(FaceTiles& t, const SweepScene& scene, std::size_t tile, SweepScr
     if (t.rest[q] > 0.0) continue;
     for (std::size_t lane = 0; lane < lanes; ++lane) {
       const std::size_t place = q * lanes + lane;
-      if (kind[n * lanes + lane] >= rested && t.face[place] != no_id)
+      if (kind[n * lanes + lane] >= was_skipped && t.face[place] != no_id)
         recall_corners(t, scene.faces, scene.pose, place);
     }
   }

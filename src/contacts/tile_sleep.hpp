@@ -14,9 +14,9 @@
 namespace edda {
 
 /// Adds the motion of the last step; the edges have been placed at n (SweepScratch::at). Wakes the
-/// resting chunks whose margin is exceeded. Returns whether that of a sleeping face may be, so that
-/// let_sleep() must be called before the tile is evaluated. Where none may be skipped, it gives all
-/// faces of the tile memory.
+/// resting chunks whose margin may be exceeded. Returns whether let_sleep() must be called before
+/// the tile is evaluated: a sleeping face may have left its margin, or the skipped faces are due to
+/// be chosen again. Where no face may be skipped, all have been awake and are given memory.
 bool sleep_is_over(FaceTiles& tiles, const SweepScene& scene, std::size_t tile,
                    SweepScratch& scratch);
 

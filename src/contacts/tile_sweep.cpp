@@ -22,14 +22,14 @@ struct ChunkEdges {
 };
 
 /// The edges of a chunk, how they stand, and where they overlap.
-struct ChunkStand {
+struct ChunkGeometry {
   Records e, f;
-  alignas(64) double columns[stand_columns * lanes];
+  alignas(64) double columns[geometry_columns * lanes];
   alignas(64) double overlaps[overlap_columns * lanes];
   alignas(64) double pressures[pressure_columns * lanes];
   bool overlaps_known;
 };
-ChunkView view_of(const SweepTables& t, std::size_t chunk, ChunkStand& stand) {
+ChunkView view_of(const SweepTables& t, std::size_t chunk, ChunkGeometry& stand) {
   ChunkView view = view_of(t, chunk, stand.columns, stand.overlaps, stand.pressures);
   view.e = &stand.e;
   view.f = &stand.f;
@@ -45,9 +45,9 @@ enum class Needs { forces, work, dashpots };
 ChunkFound evaluate_by(Formulas use, Needs needs, const ChunkView& view) {
   using Loop = ChunkFound(const ChunkView&);
   static constexpr Loop* loops[3][3] = {
-      {evaluate_bonded_at_rest, evaluate_bonded_with_work, evaluate_bonded_damped},
-      {evaluate_at_rest, evaluate_with_work, evaluate_damped},
-      {evaluate_plain_at_rest, evaluate_plain_with_work, evaluate_plain_damped}};
+      {evaluate_bonded_without_work, evaluate_bonded_with_work, evaluate_bonded_damped},
+      {evaluate_without_work, evaluate_with_work, evaluate_damped},
+      {evaluate_plain_without_work, evaluate_plain_with_work, evaluate_plain_damped}};
   return loops[static_cast<std::size_t>(use)][static_cast<std::size_t>(needs)](view);
 }
 
@@ -86,7 +86,7 @@ void keep(FaceTiles& t, std::size_t q, const ChunkFound& c) {
   const auto any = [&](unsigned of) { return (c.found & lane_bits::field(of)) != 0; };
   t.bits[t.now][q] = c.bits;
   t.found[t.now][q] = c.found;
-  t.idle[t.now][q] = any(lane_bits::works) ? 0 : 1;
+  t.idle[t.now][q] = any(lane_bits::loaded) ? 0 : 1;
   t.fresh[t.now][q] = any(lane_bits::busy) ? 1 : 0;
 }
 
@@ -120,11 +120,11 @@ void read_masses(const FaceTiles& t, const SweepScene& scene, std::size_t q, Rec
 
 /// Evaluates a chunk whose edges stand as they are known to, and stores its forces. Returns what it
 /// has found.
-ChunkFound evaluate_standing(FaceTiles& t, ChunkView& view, const ChunkEdges& edges,
-                             bool overlaps_known) {
+ChunkFound evaluate_with_geometry(FaceTiles& t, ChunkView& view, const ChunkEdges& edges,
+                                  bool overlaps_known) {
   const std::size_t q = view.chunk;
   if (is_idle(t, q)) {
-    const ChunkFound open = look_at(view);
+    const ChunkFound open = test_open_faces(view);
     if (open.found == 0) {
       keep(t, q, open);
       store_nothing(t, view.of->on, q);
@@ -152,14 +152,14 @@ ChunkFound evaluate_standing(FaceTiles& t, ChunkView& view, const ChunkEdges& ed
 /// long chain of roots and divisions.
 LaneBits sweep_some(FaceTiles& t, const SweepTables& tables, const ChunkEdges& edges,
                     std::span<const std::size_t> chunks) {
-  ChunkStand stands[chunks_at_once];
+  ChunkGeometry stands[chunks_at_once];
   ChunkView views[chunks_at_once];
   for (std::size_t n = 0; n < chunks.size(); ++n) {
     const std::size_t q = chunks[n];
     views[n] = view_of(tables, q, stands[n]);
     read_edges(edges.at, edges.slot_e(q), edges.slot_f(q), stands[n].e, stands[n].f);
   }
-  for (std::size_t n = 0; n < chunks.size(); ++n) stand_edges(views[n]);
+  for (std::size_t n = 0; n < chunks.size(); ++n) compute_geometry(views[n]);
   for (std::size_t n = 0; n < chunks.size(); ++n) {
     const std::size_t q = chunks[n];
     bool& known = stands[n].overlaps_known;
@@ -168,7 +168,7 @@ LaneBits sweep_some(FaceTiles& t, const SweepTables& tables, const ChunkEdges& e
   }
   LaneBits found = 0;
   for (std::size_t n = 0; n < chunks.size(); ++n) {
-    const ChunkFound here = evaluate_standing(t, views[n], edges, stands[n].overlaps_known);
+    const ChunkFound here = evaluate_with_geometry(t, views[n], edges, stands[n].overlaps_known);
     found |= here.found;
     t.deepest[chunks[n]] = std::max(t.deepest[chunks[n]], here.deepest);
   }
@@ -230,7 +230,7 @@ void place_tile(FaceTiles& t, const SweepScene& scene, std::size_t tile, SweepSc
   const auto place = [&](const std::vector<double>& x, const std::vector<double>& y,
                          AlignedNumbers& to) {
     to.resize(std::max(to.size(), numbers));
-    place_edges(corners_of(b), &t.blocks[of.first_block], of.last_block - of.first_block,
+    place_edges(vertex_links(b), &t.blocks[of.first_block], of.last_block - of.first_block,
                 t.halo.data() + of.first_halo, of.last_halo - of.first_halo, x.data(), y.data(),
                 to.data());
     std::fill_n(&to[numbers - 4], 4, 0.0);
@@ -255,36 +255,35 @@ SweepResult result_of(LaneBits found) {
 
 /// How the time that a tile has taken in its sweep compares with that of others: a chunk that acts
 /// takes five times as long as one that does not, and a block about twice.
-std::size_t work_of(const FaceTiles& t, const Tile& of) {
-  std::size_t work = 1 + 2 * std::size_t{of.last_block - of.first_block};
+std::size_t cost_of(const FaceTiles& t, const Tile& of) {
+  std::size_t cost = 1 + 2 * std::size_t{of.last_block - of.first_block};
   for (Id q = of.first_chunk; q < of.awake_end; ++q) {
-    if (t.rest[q] == 0.0) work += t.idle[t.now][q] != 0 ? 1 : 5;
+    if (t.rest[q] == 0.0) cost += t.idle[t.now][q] != 0 ? 1 : 5;
   }
-  return work;
+  return cost;
 }
 
 }  // namespace
 
 SweepResult sweep_tile(FaceTiles& t, const SweepScene& scene, std::size_t tile, bool keep,
-                       SweepScratch& scratch, Nodes& force_x, Nodes& force_y,
-                       ModeVectors& on_modes) {
+                       SweepScratch& scratch, BodyVectors& on) {
   const Tile& of = t.tiles[tile];
   place_tile(t, scene, tile, scratch);
   const std::size_t numbers = record_numbers(t, of);
-  AlignedNumbers &own = t.forces[tile], &on = t.kept[tile] != 0 ? own : scratch.on;
-  on.resize(std::max(on.size(), numbers));
-  const SweepTables tables = tables_of(t, tile, on.data(), scene.step, scene.faces);
+  AlignedNumbers &own = t.forces[tile], &records = t.kept[tile] != 0 ? own : scratch.on;
+  records.resize(std::max(records.size(), numbers));
+  const SweepTables tables = tables_of(t, tile, records.data(), scene.step, scene.faces);
   const ChunkEdges edges{scene, scratch.at.data(), of.takes_then ? scratch.then.data() : nullptr,
                          t.slot_e.data(), t.slot_f.data()};
   if (!scene.corrects) {
     std::fill(t.deepest.data() + of.first_chunk, t.deepest.data() + of.last_chunk, 0.0);
   }
   const LaneBits found = sweep_awake(t, of, tables, edges);
-  gather_blocks(corners_of(scene.blocks), &t.blocks[of.first_block], of.last_block - of.first_block,
-                nullptr, &t.record_begin[of.first_edge], on.data(), values_of(force_x),
-                values_of(force_y), mode_forces(scene.blocks, on_modes));
+  gather_blocks(edge_forces_view(scene.blocks, on), &t.blocks[of.first_block],
+                of.last_block - of.first_block, nullptr, &t.record_begin[of.first_edge],
+                records.data());
   SweepResult result = result_of(found);
-  result.work = work_of(t, of);
+  result.cost = cost_of(t, of);
   const bool keeps = keep || result.decides || result.switching || result.fails;
   if (keeps && t.kept[tile] == 0) own.swap(scratch.on);
   t.kept[tile] = keeps ? 1 : 0;
@@ -301,11 +300,11 @@ SweepResult sweep_chunks(FaceTiles& t, const SweepScene& scene, std::size_t tile
     read_vertices(t, scene.faces, scene.blocks, scene.pose, q, then, alone);
     const ChunkEdges edges{scene,       alone.at[0],         then ? alone.then[0] : nullptr,
                            slots_alone, slots_alone + lanes, q};
-    ChunkStand stand;
+    ChunkGeometry stand;
     ChunkView view = view_of(tables, q, stand);
     read_edges(edges.at, edges.slot_e(q), edges.slot_f(q), stand.e, stand.f);
-    stand_edges(view);
-    const ChunkFound here = evaluate_standing(t, view, edges, false);
+    compute_geometry(view);
+    const ChunkFound here = evaluate_with_geometry(t, view, edges, false);
     found |= here.found;
     t.deepest[q] = scene.corrects ? std::max(t.deepest[q], here.deepest) : here.deepest;
   }
@@ -347,12 +346,10 @@ void measure_tile(const FaceTiles& t, const FaceSet& c, const BlockSet& b, const
 }
 
 void gather_tile(const FaceTiles& t, const BlockSet& b, std::size_t tile,
-                 const std::vector<std::uint8_t>& wanted, Nodes& force_x, Nodes& force_y,
-                 ModeVectors& on_modes) {
+                 const std::vector<std::uint8_t>& wanted, BodyVectors& on) {
   const Tile& of = t.tiles[tile];
-  gather_blocks(corners_of(b), &t.blocks[of.first_block], of.last_block - of.first_block,
-                wanted.data(), &t.record_begin[of.first_edge], t.forces[tile].data(),
-                values_of(force_x), values_of(force_y), mode_forces(b, on_modes));
+  gather_blocks(edge_forces_view(b, on), &t.blocks[of.first_block], of.last_block - of.first_block,
+                wanted.data(), &t.record_begin[of.first_edge], t.forces[tile].data());
 }
 
 }  // namespace edda

@@ -1,5 +1,5 @@
-// The sweep of the explicit step over a tile of blocks: vertices, faces, and the forces of the
-// faces on the blocks. Layout: contacts/face_tiles.hpp; formulas: contacts/face_step.hpp.
+// The sweep over a tile of blocks: it evaluates the faces and sums their forces on the blocks.
+// Layout: contacts/face_tiles.hpp; formulas: contacts/face_step.hpp.
 #pragma once
 
 #include <span>
@@ -27,7 +27,7 @@ struct SweepScratch {
   AlignedNumbers at;               ///< [slots][4] start and end of the edge at n, x and y
   AlignedNumbers then;             ///< [slots][4] the same at n - 1; empty unless a face takes them
   AlignedNumbers on;               ///< [records][4] forces on start and end of an edge, N
-  std::vector<std::uint8_t> kind;  ///< [places of a tile] what each face does (tile_sleep.cpp)
+  std::vector<std::uint8_t> kind;  ///< [places of a tile] kernel classes (tile_sleep.cpp)
   AlignedNumbers excess;           ///< [runs of slots] m: as TileSleep::allowed is exceeded there
   AlignedNumbers too_far;  ///< [slots] m: by how much the edge has strayed where that is too far
   std::vector<std::uint8_t> touched;  ///< [chunks of a tile] lanes where faces have come and gone
@@ -38,15 +38,14 @@ struct SweepResult {
   bool decides = false;    ///< decide_activity() must be called for a face
   bool switching = false;  ///< a face may need an activation factor
   bool fails = false;      ///< a bond fails
-  std::size_t work = 0;    ///< what the sweep of the tile has taken, compared with others; >= 1
+  std::size_t cost = 0;    ///< what the sweep of the tile has taken, compared with others; >= 1
 };
 
 /// Evaluates the faces of a tile at step n: memory of n - 1 to memory of n (FaceTiles::now must be
-/// that of n already), bits, work. Stores the forces of the faces on the nodes and modes of the own
-/// blocks, N. Keeps the records of the forces where it finds anything, or where `keep` asks for it.
+/// that of n already), bits, work. Stores the forces of the faces on the own blocks, N. Keeps the
+/// records of the forces where it finds anything, or where `keep` asks for it.
 SweepResult sweep_tile(FaceTiles& tiles, const SweepScene& scene, std::size_t tile, bool keep,
-                       SweepScratch& scratch, Nodes& force_x, Nodes& force_y,
-                       ModeVectors& on_modes);
+                       SweepScratch& scratch, BodyVectors& on);
 
 /// Evaluates these chunks of a tile whose records are kept once more, after their faces have been
 /// changed or blocks have been moved. The forces on the blocks are left to gather_tile().
@@ -60,11 +59,9 @@ void measure_tile(const FaceTiles& tiles, const FaceSet& faces, const BlockSet& 
                   const Pose& pose, std::size_t tile, std::vector<double>& energy,
                   std::vector<double>& normal);
 
-/// Stores the forces of the faces on the nodes and modes of those own blocks of a tile that are
-/// `wanted`
-/// ([nb]), N. The records of the tile must be kept.
+/// Stores the forces of the faces on those own blocks of a tile that are `wanted` ([nb]), N. The
+/// records of the tile must be kept.
 void gather_tile(const FaceTiles& tiles, const BlockSet& blocks, std::size_t tile,
-                 const std::vector<std::uint8_t>& wanted, Nodes& force_x, Nodes& force_y,
-                 ModeVectors& on_modes);
+                 const std::vector<std::uint8_t>& wanted, BodyVectors& on);
 
 }  // namespace edda

@@ -1,5 +1,6 @@
 // Trial positions of a step in tiles: as it begins both memories are that of step n, and a trial
-// changes that of FaceTiles::now alone. For a method that begins every step at the end of the last.
+// changes that of FaceTiles::now alone. For the implicit method, which evaluates several trials in
+// a step.
 #pragma once
 
 #include "contacts/tile_rows.hpp"
@@ -15,12 +16,11 @@ void limit_shear(FaceTiles& tiles, FaceEnds limit, std::size_t k);
 /// Accepts the trial: it becomes that of step n, with no work of its own. The accumulated work of
 /// the faces is that of the FaceSet.
 void keep_trial(FaceTiles& tiles, const FaceSet& faces);
+/// Drops the trial: what is remembered of step n holds again.
+void drop_trial(FaceTiles& tiles);
 
 /// Ends a step at rest: its work is accumulated, and the state just evaluated becomes that of step
 /// n and of the step before.
 void end_at_rest(FaceSet& faces, FaceTiles& tiles, const BlockSet& blocks, const Pose& pose);
-
-/// Gives it up.
-void drop_trial(FaceTiles& tiles);
 
 }  // namespace edda

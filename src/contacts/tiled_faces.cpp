@@ -37,13 +37,13 @@ SweepScene FacesInStep::sweep_scene() const {
 }
 
 SweepResult FacesInStep::sweep(std::size_t tile, bool keep, SweepScratch& scratch) {
-  return sweep_tile(own_.tiles, sweep_scene(), tile, keep, scratch, on_.x, on_.y, on_.modes);
+  return sweep_tile(own_.tiles, sweep_scene(), tile, keep, scratch, on_);
 }
 
 void FacesInStep::sweep() {
   std::vector<std::size_t> weights;
   for (const SweepResult& last : own_.results)
-    weights.push_back(std::max<std::size_t>(1, last.work));
+    weights.push_back(std::max<std::size_t>(1, last.cost));
   const auto sweep_one = [&](std::size_t tile, SweepScratch& scratch) {
     own_.results[tile] = sweep(tile, keeps_, scratch);
   };
@@ -61,18 +61,18 @@ std::vector<Id> FacesInStep::found(unsigned of, bool SweepResult::*that) const {
   return found;
 }
 
-std::vector<Id> FacesInStep::asking() const {
-  std::vector<Id> asking = found(lane_bits::decides, &SweepResult::decides);
-  if (!own_.tiles.limits.empty()) return asking;
+std::vector<Id> FacesInStep::undecided() const {
+  std::vector<Id> undecided = found(lane_bits::decides, &SweepResult::decides);
+  if (!own_.tiles.limits.empty()) return undecided;
   const std::vector<Id> failing = found(lane_bits::fails, &SweepResult::fails);
-  asking.insert(asking.end(), failing.begin(), failing.end());
-  std::sort(asking.begin(), asking.end());
-  asking.erase(std::unique(asking.begin(), asking.end()), asking.end());
-  return asking;
+  undecided.insert(undecided.end(), failing.begin(), failing.end());
+  std::sort(undecided.begin(), undecided.end());
+  undecided.erase(std::unique(undecided.begin(), undecided.end()), undecided.end());
+  return undecided;
 }
 
-void FacesInStep::decide_and_evaluate(const std::vector<Id>& asking) {
-  const std::vector<Id> changed = decide(asking);
+void FacesInStep::decide_and_evaluate(const std::vector<Id>& undecided) {
+  const std::vector<Id> changed = decide(undecided);
   if (changed.empty()) return;
   evaluate(changed, 0.0);
   gather(changed);
@@ -167,14 +167,14 @@ auto properties(const FaceSet& c, Id k) {
 std::vector<Id> FacesInStep::decide(const std::vector<Id>& faces, const StateAtN& ahead) {
   FaceTiles& t = own_.tiles;
   const bool breaks = t.limits.empty();
-  std::vector<Id> asking;
+  std::vector<Id> undecided;
   for (const Id k : faces) {
     if ((breaks && t.has_found(lane_bits::fails, k)) || t.has_found(lane_bits::decides, k))
-      asking.push_back(k);
+      undecided.push_back(k);
   }
-  std::vector<std::uint8_t> changes(asking.size(), 0);
+  std::vector<std::uint8_t> changes(undecided.size(), 0);
   const auto decide_one = [&](std::size_t q) {
-    const Id k = asking[q];
+    const Id k = undecided[q];
     const FaceFields* const known = ahead ? ahead(k) : nullptr;
     if (known == nullptr) recall_work(c_, t, k);
     const FaceFields before = known == nullptr ? remembered(t, k) : *known;
@@ -186,12 +186,12 @@ std::vector<Id> FacesInStep::decide(const std::vector<Id>& faces, const StateAtN
     }
     changes[q] = properties(c_, k) == had ? 0 : 1;
   };
-  parallel_for(asking.size(), decide_one, 1000);
+  parallel_for(undecided.size(), decide_one, 1000);
   std::vector<Id> changed;
-  for (std::size_t q = 0; q < asking.size(); ++q) {
+  for (std::size_t q = 0; q < undecided.size(); ++q) {
     if (changes[q] == 0) continue;
-    load_decisions(t, c_, scene_.blocks, asking[q]);
-    changed.push_back(asking[q]);
+    load_decisions(t, c_, scene_.blocks, undecided[q]);
+    changed.push_back(undecided[q]);
   }
   return changed;
 }
@@ -214,7 +214,7 @@ void FacesInStep::gather(const std::vector<Id>& faces) {
   std::vector<char> no_scratch;
   parallel_tasks(in_tile.size(), 80 * faces.size(), no_scratch, [&](std::size_t tile, char&) {
     if (in_tile[tile] == 0 || own_.tiles.kept[tile] == 0) return;
-    gather_tile(own_.tiles, b, tile, wanted, on_.x, on_.y, on_.modes);
+    gather_tile(own_.tiles, b, tile, wanted, on_);
   });
   mark(0);
 }

@@ -32,12 +32,6 @@ void load_tiles(TiledFaces& tiled, const FaceSet& faces, const FaceStates& state
                 const BlockSet& blocks, const State& state, const Pose& pose, bool with_fixed,
                 std::size_t of_tile);
 
-/// Forces of the faces on the nodes and modes of the blocks, N.
-struct ForcesOfFaces {
-  Nodes &x, &y;
-  ModeVectors& modes;
-};
-
 /// The state at n of a face that is ahead of what the tiles remember; null: it is not.
 using StateAtN = std::function<const FaceFields*(Id)>;
 
@@ -47,7 +41,7 @@ class FacesInStep {
   /// step: s. largest_move: m, no vertex has moved farther. keeps: the records of the forces of all
   /// tiles are kept. skips: open faces may be skipped (contacts/tile_sleep.hpp).
   FacesInStep(FaceSet& faces, TiledFaces& tiled, const FaceScene& scene, double step,
-              double largest_move, const ForcesOfFaces& on, bool keeps = false, bool skips = true)
+              double largest_move, BodyVectors& on, bool keeps = false, bool skips = true)
       : c_(faces),
         own_(tiled),
         scene_(scene),
@@ -61,19 +55,20 @@ class FacesInStep {
   void sweep();
   /// Faces with a bit of `of` in the tiles of which that was found, in the order of the list.
   std::vector<Id> found(unsigned of, bool SweepResult::*that) const;
-  /// Faces that ask for a decision.
-  std::vector<Id> asking() const;
-  /// Decides what they ask for, and evaluates those once more of which anything has changed.
-  void decide_and_evaluate(const std::vector<Id>& asking);
-  /// Evaluates these faces once more, with those of the same chunks. Blocks have been pushed so far
-  /// since the sweep (m): those that rest go on unless that is too far.
+  /// Faces that need a decision (needs_decision()), or whose bond fails.
+  std::vector<Id> undecided() const;
+  /// Makes their decisions, and evaluates those once more of which anything has changed.
+  void decide_and_evaluate(const std::vector<Id>& undecided);
+  /// Evaluates these faces once more, with those of the same chunks. pushed: upper bound of the
+  /// motion of any vertex since the sweep, m; a resting chunk that it may take beyond its margin
+  /// wakes.
   void evaluate(const std::vector<Id>& faces, double pushed);
   /// Decides activity and, unless limits of shear are given, breaks bonds of those of these faces
-  /// that ask for it. Returns those of which anything has changed.
+  /// that need it. Returns those of which anything has changed.
   std::vector<Id> decide(const std::vector<Id>& faces, const StateAtN& ahead = {});
   /// Sums the forces anew on the blocks of these faces.
   void gather(const std::vector<Id>& faces);
-  /// Whether a copy of face k is awake, or must wake since blocks have been pushed so far (m).
+  /// Whether a copy of face k is awake, or must wake after vertices have moved by `pushed`, m.
   bool takes_part(double pushed, Id k) const;
 
  private:
@@ -87,7 +82,7 @@ class FacesInStep {
   TiledFaces& own_;
   FaceScene scene_;
   double step_, largest_move_;
-  ForcesOfFaces on_;
+  BodyVectors& on_;
   bool keeps_, skips_;
 };
 

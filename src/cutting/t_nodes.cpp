@@ -175,11 +175,30 @@ std::size_t corners_of(const std::vector<Edge>& edges) {
 
 }  // namespace
 
-void add_t_nodes(PolygonSet& set, double tolerance, std::size_t most,
-                 const std::function<bool(std::size_t)>& bends) {
+void divide_edges(BlockPolygon& block, const std::function<std::vector<Vec2>(Vec2, Vec2)>& within) {
+  for (std::size_t r = 0; r < block.rings.size(); ++r) {
+    Ring ring;
+    std::vector<Index> joint, table;
+    for (std::size_t e = 0; e < block.joint[r].size(); ++e) {
+      const Vec2 from = block.rings[r][e], to = block.rings[r][(e + 1) % block.rings[r].size()];
+      const std::vector<Vec2> points = within(from, to);
+      ring.push_back(from);
+      ring.insert(ring.end(), points.begin(), points.end());
+      joint.insert(joint.end(), 1 + points.size(), block.joint[r][e]);
+      if (!block.table.empty()) table.insert(table.end(), 1 + points.size(), block.table[r][e]);
+    }
+    block.rings[r] = std::move(ring);
+    block.joint[r] = std::move(joint);
+    if (!block.table.empty()) block.table[r] = std::move(table);
+  }
+}
+
+void add_t_nodes(PolygonSet& set, double tolerance,
+                 const std::function<TNodes(std::size_t)>& may_have) {
   const Cells cells(set);
   for (std::size_t i = 0; i < set.blocks.size(); ++i) {
-    if (!bends(i)) continue;
+    const TNodes allowed = may_have(i);
+    if (allowed.most == 0) continue;
     BlockPolygon& block = set.blocks[i];
     std::vector<Edge> edges;
     for (const Ring& ring : block.rings) {
@@ -190,25 +209,19 @@ void add_t_nodes(PolygonSet& set, double tolerance, std::size_t most,
           edges.back().add(node);
       }
     }
-    if (corners_of(edges) > most) continue;
-    std::vector<Edge> with_partners = edges;
-    add_partners(with_partners);
-    if (corners_of(with_partners) <= most) edges = std::move(with_partners);
-    auto edge = edges.begin();
-    for (std::size_t r = 0; r < block.rings.size(); ++r) {
-      Ring ring;
-      std::vector<Index> joint, table;
-      for (std::size_t e = 0; e < block.joint[r].size(); ++e, ++edge) {
-        const std::size_t parts = 1 + edge->nodes.size();
-        ring.push_back(edge->from);
-        for (const Node& node : edge->nodes) ring.push_back(node.at);
-        joint.insert(joint.end(), parts, block.joint[r][e]);
-        if (!block.table.empty()) table.insert(table.end(), parts, block.table[r][e]);
-      }
-      block.rings[r] = std::move(ring);
-      block.joint[r] = std::move(joint);
-      if (!block.table.empty()) block.table[r] = std::move(table);
+    if (corners_of(edges) > allowed.most) continue;
+    if (allowed.partners) {
+      std::vector<Edge> with_partners = edges;
+      add_partners(with_partners);
+      if (corners_of(with_partners) <= allowed.most) edges = std::move(with_partners);
     }
+    auto edge = edges.begin();
+    divide_edges(block, [&](Vec2, Vec2) {
+      std::vector<Vec2> points;
+      for (const Node& node : edge->nodes) points.push_back(node.at);
+      ++edge;
+      return points;
+    });
   }
 }
 

@@ -1,6 +1,7 @@
 #include "forces/bending_forces.hpp"
 
 #include "blocks/bent_state.hpp"
+#include "forces/elastic.hpp"
 
 // Vectors are passed between inlined functions alone.
 #pragma GCC diagnostic ignored "-Wpsabi"
@@ -57,17 +58,23 @@ EDDA_VECTOR void add_to_groups(const BentView b, Groups groups, std::size_t begi
       });
 }
 
+/// That of step n - 1, x_{n-1} = x_n - h v_{n-1/2}.
+Deformation deformation_before(const BlockSet& b, const State& s, double h, std::size_t i) {
+  const Deformation now = deformation(b, s.position, i), rate = deformation(b, s.velocity, i);
+  return {now.xx - h * rate.xx, now.xy - h * rate.xy, now.yx - h * rate.yx, now.yy - h * rate.yy};
+}
+
 }  // namespace
 
-void add_bending(NodalForces& forces, const BlockSet& b, const State& state,
+void add_bending(BodyVectors& forces, const BlockSet& b, const State& state,
                  const ModeVectors& locked, std::size_t begin, std::size_t end) {
   const bool any_locked = locked.size() > 0;
   const BentView view{view_of(b.bending),
                       gradients_of(b),
-                      values_of(state.x),
-                      values_of(state.y),
-                      state.bend.x.data(),
-                      state.bend.y.data(),
+                      values_of(state.position.x),
+                      values_of(state.position.y),
+                      state.position.modes.x.data(),
+                      state.position.modes.y.data(),
                       any_locked ? locked.x.data() : nullptr,
                       any_locked ? locked.y.data() : nullptr,
                       forces.modes.x.data(),
@@ -81,20 +88,31 @@ double bending_energy(const BlockSet& b, const State& s, const ModeVectors& lock
                       std::size_t i) {
   const BlockModes modes = b.modes(i);
   if (modes.count == 0) return 0.0;
-  const Deformation now = deformation(b, s.x, s.y, i), rate = deformation(b, s.vx, s.vy, i);
-  const Deformation before{now.xx - h * rate.xx, now.xy - h * rate.xy, now.yx - h * rate.yx,
-                           now.yy - h * rate.yy};
-  const BentState at = bent_state(b, s.bend, rotation(now), i);
+  const Deformation now = deformation(b, s.position, i), before = deformation_before(b, s, h, i);
+  const BentState at = bent_state(b, s.position.modes, rotation(now), i);
   const Rotation r = rotation(before);
   const ModesOfBlock g = elastic_stress(b, at, i);
   double twice = 0.0;
   for (std::size_t a = 0; a < modes.count; ++a) {
     const std::size_t m = modes[a];
-    const Vec2 then = turned_back(r, s.bend[m] - h * s.bend_rate[m]);
+    const Vec2 then = turned_back(r, s.position.modes[m] - h * s.velocity.modes[m]);
     twice += dot(then, g[a]);
     if (locked.size() > 0) twice += dot(at.s[a] + then, locked[m]);
   }
   return 0.5 * twice;
+}
+
+double stored_energy(const BlockSet& b, const State& s, const RockInside& rock, double h,
+                     std::size_t i) {
+  if (b.is_meshed(i)) return stored_in_zones(*rock.model, *rock.zones, i);
+  const Deformation now = deformation(b, s.position, i), before = deformation_before(b, s, h, i);
+  double energy = strain_energy(corotated_strain(before, rotation(before)),
+                                corotated_strain(now, rotation(now)), b.volume[i], b.lame_lambda[i],
+                                b.lame_mu[i]);
+  if (!b.initial_xx.empty())
+    energy += initial_energy(before, now, initial_stress(b, i), b.volume[i], b.lame_lambda[i],
+                             b.lame_mu[i]);
+  return energy + bending_energy(b, s, rock.locked_forces(), h, i);
 }
 
 }  // namespace edda

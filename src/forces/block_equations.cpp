@@ -123,14 +123,18 @@ class Hash {
 
 }  // namespace
 
+std::vector<SpringOnBlock> springs_all_round(const StiffnessInputs& w, std::size_t i) {
+  return w.near == nullptr ? faces_all_round(w, i) : springs_near(*w.near, i);
+}
+
 template <class Matrix>
 BlockEquations<Matrix> equations_of(const StiffnessInputs& w, std::size_t i) {
   using Vector = typename BlockEquations<Matrix>::Vector;
   constexpr bool bends = std::is_same_v<Matrix, BodyMatrix>;
   const Eigen::Index size = components_of(w.blocks, i);
   BlockEquations<Matrix> k;
-  k.parts = w.near == nullptr ? faces_all_round(w, i) : springs_near(*w.near, i);
-  const Rotation r = rotation(deformation(w.blocks, w.state.x, w.state.y, i));
+  k.parts = springs_all_round(w, i);
+  const Rotation r = rotation(deformation(w.blocks, w.state.position, i));
   const NodalMatrix elastic = elastic_matrix(w.blocks, i),
                     viscous = viscous_matrix(w.blocks, w.masses, i),
                     bolts = w.bolts == nullptr ? NodalMatrix::Zero().eval()

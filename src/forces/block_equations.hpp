@@ -14,6 +14,7 @@
 #include "contacts/face_set.hpp"
 #include "contacts/laws.hpp"
 #include "forces/block_matrices.hpp"
+#include "zones/zone_set.hpp"
 
 namespace edda {
 
@@ -44,6 +45,7 @@ struct StiffnessInputs {
   const LawTable& laws;
   const Damping& damping;
   const Bolts* bolts = nullptr;       ///< null: none
+  const ZoneModel* zones = nullptr;   ///< of meshed blocks; null: none
   const NearSprings* near = nullptr;  ///< null: contacts are faces
   bool alone = std::count(blocks.fixed.begin(), blocks.fixed.end(), 0) == 1;  ///< only one block is
                                                                               ///< free
@@ -54,7 +56,7 @@ struct StiffnessInputs {
 /// allows.
 template <class Matrix>
 struct BlockEquations {
-  using Vector = std::conditional_t<std::is_same_v<Matrix, NodalMatrix>, NodalVector, BodyVector>;
+  using Vector = std::conditional_t<std::is_same_v<Matrix, NodalMatrix>, NodalVector, BodyColumn>;
   Matrix mass;                       ///< M
   Matrix viscous;                    ///< D of the strain damping, taken with the new velocity
   Matrix dashpots;                   ///< C of contacts, taken with the old velocity
@@ -65,11 +67,14 @@ struct BlockEquations {
   Matrix stiffness() const { return elastic + boundary + bolts + contacts; }
 };
 
+/// Contacts of block i as if it were in contact all round, or those near it.
+std::vector<SpringOnBlock> springs_all_round(const StiffnessInputs& inputs, std::size_t i);
+
 /// Unit forces along `direction` at the corner of a spring, on the nodes and modes of its block
 /// (q_c in theory 7.2). Vector: of BlockEquations.
 template <class Vector>
 Vector at_corner_of(const BlockSet& b, const SpringOnBlock& spring, Vec2 direction) {
-  if constexpr (std::is_same_v<Vector, BodyVector>) {
+  if constexpr (std::is_same_v<Vector, BodyColumn>) {
     return at_corner(b, spring.corner, direction);
   } else {
     return along(spring.weight, direction);

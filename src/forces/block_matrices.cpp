@@ -10,38 +10,36 @@ NodalVector along(const NodeWeights& w, Vec2 direction) {
   return nodal(h);
 }
 
-BodyVector body_vector(const BlockSet& b, const Nodes& x, const Nodes& y, const ModeVectors& modes,
-                       std::size_t i) {
-  BodyVector u(components_of(b, i));
-  u.head<degrees_of_freedom>() = nodal(x, y, i);
-  const BlockModes own = b.modes(i);
-  for (std::size_t a = 0; a < own.count; ++a) {
-    const Vec2 q = modes[own[a]];
-    u.segment<2>(row_of_node(nodes_per_block + a)) << q.x, q.y;
-  }
-  return u;
+namespace {
+
+BodyColumn column_of(const BodyVector& u) {
+  BodyColumn c(row_of_node(nodes_per_block + u.count));
+  c.head<degrees_of_freedom>() = nodal(u.nodes);
+  for (std::size_t a = 0; a < u.count; ++a)
+    c.segment<2>(row_of_node(nodes_per_block + a)) << u.modes[a].x, u.modes[a].y;
+  return c;
 }
 
-void store(const BodyVector& u, const BlockSet& b, Nodes& x, Nodes& y, ModeVectors& modes,
-           std::size_t i) {
-  store(vectors_of(u.head<degrees_of_freedom>()), x, y, i);
-  const BlockModes own = b.modes(i);
-  for (std::size_t a = 0; a < own.count; ++a) {
-    const Eigen::Index row = row_of_node(nodes_per_block + a);
-    modes.set(own[a], {u[row], u[row + 1]});
-  }
+}  // namespace
+
+BodyColumn column_of(const BlockSet& b, const BodyVectors& u, std::size_t i) {
+  return column_of(vector_of(b, u, i));
 }
 
-BodyVector at_corner(const BlockSet& b, Id v, Vec2 force) {
-  const std::size_t i = b.vertex_block[v];
-  const BlockModes modes = b.modes(i);
-  BodyVector on(components_of(b, i));
-  on.head<degrees_of_freedom>() = along(weights_of(b.weight, v), force);
-  for (std::size_t a = 0; a < modes.count; ++a) {
-    const double h = modes.of(a, v - b.vertex_begin[i]);
-    on.segment<2>(row_of_node(nodes_per_block + a)) << h * force.x, h * force.y;
+void store(const BodyColumn& c, const BlockSet& b, BodyVectors& u, std::size_t i) {
+  BodyVector v(b.bending.modes_of(i));
+  v.nodes = vectors_of(c.head<degrees_of_freedom>());
+  for (std::size_t a = 0; a < v.count; ++a) {
+    const auto q = c.segment<2>(row_of_node(nodes_per_block + a));
+    v.modes.set(a, {q[0], q[1]});
   }
-  return on;
+  store(v, b, u, i);
+}
+
+BodyColumn at_corner(const BlockSet& b, Id v, Vec2 force) {
+  BlockForces on{b, b.vertex_block[v]};
+  on.at_corner(v, force);
+  return column_of(on.sum);
 }
 
 void add_at(NodalMatrix& m, const NodeWeights& w, const Eigen::Matrix2d& c) {
@@ -203,8 +201,8 @@ void BodyMass::add_to(BodyMatrix& k, double factor) const {
   k.diagonal().tail(k.rows() - nodes.rows()).array() += factor * mode;
 }
 
-BodyVector operator*(const BodyMass& mass, const BodyVector& u) {
-  BodyVector product = mass.mode * u;
+BodyColumn operator*(const BodyMass& mass, const BodyColumn& u) {
+  BodyColumn product = mass.mode * u;
   product.head<degrees_of_freedom>() = mass.nodes * u.head<degrees_of_freedom>();
   return product;
 }

@@ -15,7 +15,8 @@ using NodalMatrix = Eigen::Matrix<double, degrees_of_freedom, degrees_of_freedom
 using NodalVector = Eigen::Matrix<double, degrees_of_freedom, 1>;
 using StrainMatrix = Eigen::Matrix<double, 3, degrees_of_freedom>;
 using BodyMatrix = Eigen::MatrixXd;
-using BodyVector = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor,
+/// The components of a BodyVector.
+using BodyColumn = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor,
                                  degrees_of_freedom + 2 * most_modes, 1>;
 
 /// Row of u_k in these; that of v_k is the next.
@@ -32,8 +33,8 @@ inline NodalVector nodal(const NodeVectors& u) {
   }
   return v;
 }
-inline NodalVector nodal(const Nodes& x, const Nodes& y, std::size_t i) {
-  return nodal(vectors_of(x, y, i));
+inline NodalVector nodal(const BodyVectors& u, std::size_t i) {
+  return nodal(vectors_of(u, i));
 }
 inline NodeVectors vectors_of(const NodalVector& u) {
   NodeVectors v;
@@ -47,15 +48,13 @@ inline NodeVectors vectors_of(const NodalVector& u) {
 inline Eigen::Index components_of(const BlockSet& b, std::size_t i) {
   return static_cast<Eigen::Index>(degrees_of_freedom + 2 * b.bending.modes_of(i));
 }
-BodyVector body_vector(const BlockSet& blocks, const Nodes& x, const Nodes& y,
-                       const ModeVectors& modes, std::size_t i);
-void store(const BodyVector& u, const BlockSet& blocks, Nodes& x, Nodes& y, ModeVectors& modes,
-           std::size_t i);
+BodyColumn column_of(const BlockSet& blocks, const BodyVectors& u, std::size_t i);
+void store(const BodyColumn& c, const BlockSet& blocks, BodyVectors& u, std::size_t i);
 
 /// Nodal forces of a unit force along `direction` at the material point of weights w.
 NodalVector along(const NodeWeights& w, Vec2 direction);
 /// Forces on the body of a force at its corner v.
-BodyVector at_corner(const BlockSet& blocks, Id v, Vec2 force);
+BodyColumn at_corner(const BlockSet& blocks, Id v, Vec2 force);
 
 /// Adds c, a matrix at the material point of weights w, to that of the block: w w^T (x) c.
 void add_at(NodalMatrix& m, const NodeWeights& w, const Eigen::Matrix2d& c);
@@ -99,7 +98,7 @@ struct BodyMass {
   double mode = 0.0;  ///< of each mode, kg
   void add_to(BodyMatrix& k, double factor) const;
 };
-BodyVector operator*(const BodyMass& mass, const BodyVector& u);
+BodyColumn operator*(const BodyMass& mass, const BodyColumn& u);
 BodyMass body_mass(const BlockSet& blocks, const Masses& masses, std::size_t i);
 
 /// A matrix of the block's own frame in space: Q K Q^T with Q = diag(R, R, ...).

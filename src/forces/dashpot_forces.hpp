@@ -14,7 +14,7 @@ struct DashpotScene {
   const BlockSet& blocks;
   const Masses& masses;
   const State& state;
-  const Nodes &vx, &vy;  ///< v_{n-1/2}, m/s
+  const BodyVectors& velocity;  ///< v_{n-1/2}, m/s
 };
 
 /// Data of a step for the dashpots.
@@ -35,13 +35,24 @@ struct DashpotStep {
 /// ((1 + a h/2) M + h C/2 + h D) v+ = ((1 - a h/2) M - h C/2) v- + h (f + C r), with D of the
 /// strain damping, whose force is left to advance(). The dashpots thus dissipate in every step,
 /// whatever its length, and the critical step is what it is without them. on_point: [points] N,
-/// filled.
-void add_dashpots(NodalForces& forces, std::vector<Vec2>& on_point, const Dashpots& dashpots,
+/// filled. Blocks that are meshed are left out.
+void add_dashpots(BodyVectors& forces, std::vector<Vec2>& on_point, const Dashpots& dashpots,
                   const DashpotScene& scene, const DashpotStep& step, std::size_t begin,
                   std::size_t end);
 
-/// Subtracts the forces on_point from the nodal forces.
-void remove_dashpots(NodalForces& forces, const std::vector<Vec2>& on_point,
-                     const Dashpots& dashpots);
+/// The same of the meshed blocks, before their modes advance. The mass of a mesh is diagonal but
+/// for its affine part, M^-1 = M_L^-1 + P Q P^T with Q = I^-1 - G^-1 (blocks/meshes.hpp), and C is
+/// diagonal, so that six equations remain for all nodes (Woodbury): with u the mean velocity, f the
+/// force of the dashpots without r and push and h' = h/(1 + a h/2),
+///   u_j = A_j^-1 (u*_j + h' P_j.z/2), A_j = 1 + h' C_j/(2 m_j),  (1 + h' Q S/2) z = Q P^T f(z =
+///   0), S = sum_j P_j C_j A_j^-1 P_j^T.
+/// yet_on_nodes: forces that the three nodes have not got yet, the modes have; null: none.
+void add_mesh_dashpots(BodyVectors& forces, std::vector<Vec2>& on_point, const Dashpots& dashpots,
+                       const DashpotScene& scene, const DashpotStep& step,
+                       const BodyVectors* yet_on_nodes, std::size_t begin, std::size_t end);
+
+/// Subtracts the forces on_point from those on the blocks.
+void remove_dashpots(BodyVectors& forces, const std::vector<Vec2>& on_point,
+                     const Dashpots& dashpots, const BlockSet& blocks);
 
 }  // namespace edda

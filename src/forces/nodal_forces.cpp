@@ -12,89 +12,61 @@
 namespace edda {
 namespace {
 
-/// Data read by the loops over the faces of a block.
+/// The faces on each edge, and the forces of each.
 struct FaceListView {
-  const Id *begin_of_edge, *on_edge, *next;
+  const Id *begin_of_edge, *on_edge;
   const double* force;
-  ConstNodeValues weight;
 };
-FaceListView faces_of(const BlockSet& b, const FaceSet& c, const std::vector<double>& forces) {
-  return {c.begin_of_edge.data(), c.on_edge.data(), b.next.data(), forces.data(),
-          values_of(b.weight)};
-}
 
-/// The forces of faces on the nodes of the block with the edges [first, end).
-EDDA_INLINE NodeVectors of_faces(const FaceListView& c, Id first, Id end) {
-  EdgeForces on;
-  for (Id e = first; e < end; ++e) {
-    const Id begin = c.begin_of_edge[e], last = c.begin_of_edge[e + 1];
-    if (begin == last) continue;
-    Four sum{};
-    for (std::size_t q = begin; q < last; ++q) {
-      const double* const of_face = c.force + c.on_edge[q];
-      sum += Four{of_face[0], of_face[1], of_face[2], of_face[3]};
-    }
-    on.add(c.weight, e, c.next[e], sum);
-  }
-  return on.on_nodes();
-}
-
-EDDA_VECTOR void sum_faces_of_blocks(FaceListView c, const Id* vertex_begin, NodeValues fx,
-                                     NodeValues fy, std::size_t begin, std::size_t end) {
+EDDA_VECTOR void sum_faces_of_blocks(FaceListView c, const EdgeForcesView on, std::size_t begin,
+                                     std::size_t end) {
   for (std::size_t i = begin; i < end; ++i) {
-    store(of_faces(c, vertex_begin[i], vertex_begin[i + 1]), fx, fy, i);
-  }
-}
-
-/// Sets the forces of faces on the modes of block i.
-void modes_of_faces(const FaceListView& c, const BlockSet& b, std::size_t i, ModeVectors& on) {
-  const BlockModes modes = b.modes(i);
-  if (modes.count == 0) return;
-  const Id first = b.vertex_begin[i];
-  Four sums[most_corners_that_bend] = {};
-  for (Id e = first; e < b.vertex_begin[i + 1]; ++e) {
-    for (std::size_t q = c.begin_of_edge[e]; q < c.begin_of_edge[e + 1]; ++q) {
-      const double* const of_face = c.force + c.on_edge[q];
-      sums[e - first] += Four{of_face[0], of_face[1], of_face[2], of_face[3]};
+    EdgeForces of_block(on, i);
+    for (Id e = on.vertex_begin[i]; e < on.vertex_begin[i + 1]; ++e) {
+      const Id first = c.begin_of_edge[e], last = c.begin_of_edge[e + 1];
+      if (first == last) {
+        of_block.set_none(e);
+        continue;
+      }
+      Four sum{};
+      for (std::size_t q = first; q < last; ++q) {
+        const double* const of_face = c.force + c.on_edge[q];
+        sum += Four{of_face[0], of_face[1], of_face[2], of_face[3]};
+      }
+      of_block.set(e, sum);
     }
+    of_block.store();
   }
-  gather_modes(modes, c.next + first, first, sums, on.x.data(), on.y.data());
-}
-
-/// The forces on block i, to be added to.
-BlockForces forces_on(NodalForces& forces, const BlockSet& b, std::size_t i) {
-  return {b, i, vectors_of(forces.x, forces.y, i),
-          forces.modes.size() > 0 ? &forces.modes : nullptr};
 }
 
 /// Calls body(forces) for those of these blocks, ascending, that lie in [begin, end) and are free.
 template <class Body>
-void change_forces(NodalForces& forces, const BlockSet& b, const State& state,
+void change_forces(BodyVectors& forces, const BlockSet& b, const State& state,
                    const std::vector<Id>& blocks, std::size_t begin, std::size_t end, Body body) {
   auto next = std::lower_bound(blocks.begin(), blocks.end(), static_cast<Id>(begin));
   for (; next != blocks.end() && *next < end; ++next) {
     if (!is_free(b, state, *next)) continue;
-    BlockForces f = forces_on(forces, b, *next);
+    BlockForces f{b, *next, vector_of(b, forces, *next)};
     body(f);
-    store(f.nodes, forces.x, forces.y, *next);
+    store(f.sum, b, forces, *next);
   }
 }
 
 /// Adds the forces of the springs on the free blocks of [begin, end).
-void add_springs(NodalForces& forces, const BlockSet& b, const BoundarySprings& s,
+void add_springs(BodyVectors& forces, const BlockSet& b, const BoundarySprings& s,
                  const State& state, const Pose& pose, std::size_t begin, std::size_t end) {
   for (Id q = s.block_begin[begin], next = q; q < s.block_begin[end]; q = next) {
     const Id i = b.vertex_block[s.vertex[q]];
     next = s.block_begin[i + 1];
     if (!is_free(b, state, i)) continue;
-    BlockForces f = forces_on(forces, b, i);
+    BlockForces f{b, i, vector_of(b, forces, i)};
     for (; q < next; ++q) f.at_corner(s.vertex[q], spring_force(s, q, pose.x, pose.y));
-    store(f.nodes, forces.x, forces.y, i);
+    store(f.sum, b, forces, i);
   }
 }
 
 /// Adds the loads, then the forces of the bolts, likewise.
-void add_loads(NodalForces& forces, const BlockSet& b, const LoadsNow& loads, const State& state,
+void add_loads(BodyVectors& forces, const BlockSet& b, const LoadsNow& loads, const State& state,
                const Pose& pose, std::size_t begin, std::size_t end) {
   if (loads.loads != nullptr) {
     change_forces(forces, b, state, loads.loads->blocks, begin, end,
@@ -103,9 +75,9 @@ void add_loads(NodalForces& forces, const BlockSet& b, const LoadsNow& loads, co
   if (loads.bolts == nullptr) return;
   for (std::size_t i = begin; i < end; ++i) {
     if (loads.bolts->place[i] == no_id || !is_free(b, state, i)) continue;
-    NodeVectors f = vectors_of(forces.x, forces.y, i);
-    add_bolts(f, *loads.bolts, i);
-    store(f, forces.x, forces.y, i);
+    BlockForces f{b, i, vector_of(b, forces, i)};
+    add_bolts(f, *loads.bolts);
+    store(f.sum, b, forces, i);
   }
 }
 
@@ -158,37 +130,31 @@ EDDA_VECTOR void add_initial_forces(InitialView b, ConstNodeValues x, ConstNodeV
 
 }  // namespace
 
-NodalForces no_forces(const BlockSet& b) {
-  NodalForces f{zero_nodes(b.size()), zero_nodes(b.size())};
-  f.modes.assign(b.bending.modes(), 0.0);
-  return f;
-}
-
-void sum_faces(NodalForces& on, const BlockSet& b, const FaceSet& contacts,
+void sum_faces(BodyVectors& on, const BlockSet& b, const FaceSet& contacts,
                const std::vector<double>& forces) {
   for (Nodes* const nodes : {&on.x, &on.y}) {
     for (auto& values : *nodes) values.resize(b.size());
   }
-  on.modes.assign(b.bending.modes(), 0.0);
+  on.modes.assign(b.mode_places(), 0.0);
   parallel_blocks(b.size(), 40, [&](std::size_t, std::size_t begin, std::size_t end) {
-    const FaceListView faces = faces_of(b, contacts, forces);
-    sum_faces_of_blocks(faces, b.vertex_begin.data(), values_of(on.x), values_of(on.y), begin, end);
-    for (std::size_t i = begin; i < end; ++i) modes_of_faces(faces, b, i, on.modes);
+    sum_faces_of_blocks({contacts.begin_of_edge.data(), contacts.on_edge.data(), forces.data()},
+                        edge_forces_view(b, on), begin, end);
   });
 }
 
-void gather_own_forces(NodalForces& forces, const BlockSet& b, const State& state, const Pose& pose,
+void gather_own_forces(BodyVectors& forces, const BlockSet& b, const State& state, const Pose& pose,
                        const BoundarySprings& springs, Vec2 gravity, const LoadsNow& loads,
-                       const ModeVectors& locked, std::size_t begin, std::size_t end) {
+                       const RockInside& rock, std::size_t begin, std::size_t end) {
   const BodyView body{values_of(b.grad_x),  values_of(b.grad_y), b.volume.data(),
                       b.lame_lambda.data(), b.lame_mu.data(),    b.mass.data()};
-  body_forces(body, values_of(state.x), values_of(state.y), gravity - loads.gravity_reduction(),
+  const Vec2 weight = gravity - loads.gravity_reduction();
+  body_forces(body, values_of(state.position.x), values_of(state.position.y), weight,
               values_of(forces.x), values_of(forces.y), begin, end);
   if (!b.initial_xx.empty()) {
     const InitialView initial{values_of(b.grad_x), values_of(b.grad_y), b.volume.data(),
                               b.initial_xx.data(), b.initial_yy.data(), b.initial_xy.data()};
-    add_initial_forces(initial, values_of(state.x), values_of(state.y), values_of(forces.x),
-                       values_of(forces.y), begin, end);
+    add_initial_forces(initial, values_of(state.position.x), values_of(state.position.y),
+                       values_of(forces.x), values_of(forces.y), begin, end);
   }
   if (b.bending.any()) {
     const auto first = static_cast<std::ptrdiff_t>(b.bending.begin_of_group(begin)),
@@ -196,26 +162,29 @@ void gather_own_forces(NodalForces& forces, const BlockSet& b, const State& stat
     for (std::vector<double>* of : {&forces.modes.x, &forces.modes.y})
       std::fill(of->begin() + first, of->begin() + last, 0.0);
   }
+  if (rock.zones != nullptr)
+    set_zone_forces(*rock.model, b, *rock.zones, weight, forces, begin, end);
   add_springs(forces, b, springs, state, pose, begin, end);
   add_loads(forces, b, loads, state, pose, begin, end);
-  if (b.bending.any()) add_bending(forces, b, state, locked, begin, end);
+  if (b.bending.any()) add_bending(forces, b, state, rock.locked_forces(), begin, end);
 }
 
-void gather_forces(NodalForces& forces, const BlockSet& b, const State& state, const Pose& pose,
-                   const NodalForces& on_faces, const BoundarySprings& springs, Vec2 gravity,
-                   const LoadsNow& loads, const ModeVectors& locked, std::size_t begin,
+void gather_forces(BodyVectors& forces, const BlockSet& b, const State& state, const Pose& pose,
+                   const BodyVectors& on_faces, const BoundarySprings& springs, Vec2 gravity,
+                   const LoadsNow& loads, const RockInside& rock, std::size_t begin,
                    std::size_t end) {
-  gather_own_forces(forces, b, state, pose, springs, gravity, loads, locked, begin, end);
-  add_to_free(b, state, {on_faces.x, on_faces.y, forces.x, forces.y}, begin, end);
-  add_to_modes(b, on_faces.modes, forces.modes, begin, end);
+  gather_own_forces(forces, b, state, pose, springs, gravity, loads, rock, begin, end);
+  const ForcesToAdd to_add{on_faces, forces};
+  add_to_free(b, state, to_add, begin, end);
+  add_to_modes(b, to_add, begin, end);
 }
 
-void gather_forces(NodalForces& forces, const BlockSet& b, const State& state, const Pose& pose,
-                   const NodalForces& on_faces, const BoundarySprings& springs, Vec2 gravity,
-                   const LoadsNow& loads, const ModeVectors& locked) {
-  if (forces.modes.size() != b.bending.modes()) forces.modes.assign(b.bending.modes(), 0.0);
+void gather_forces(BodyVectors& forces, const BlockSet& b, const State& state, const Pose& pose,
+                   const BodyVectors& on_faces, const BoundarySprings& springs, Vec2 gravity,
+                   const LoadsNow& loads, const RockInside& rock) {
+  if (forces.modes.size() != b.mode_places()) forces.modes.assign(b.mode_places(), 0.0);
   parallel_blocks(b.size(), 40, [&](std::size_t, std::size_t begin, std::size_t end) {
-    gather_forces(forces, b, state, pose, on_faces, springs, gravity, loads, locked, begin, end);
+    gather_forces(forces, b, state, pose, on_faces, springs, gravity, loads, rock, begin, end);
   });
 }
 

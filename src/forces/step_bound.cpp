@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "base/parallel.hpp"
+#include "forces/mesh_bound.hpp"
 
 namespace edda {
 namespace {
@@ -99,6 +100,13 @@ double critical_step_of(const BlockEquations<Matrix>& q, const Damping& damping)
   return not_beyond_mass_damping(h, damping);
 }
 
+/// The step that the bound of a meshed block allows.
+double mesh_step(const MeshBound& bound, const Damping& damping) {
+  const double k = (1.0 + damping.local) * bound.square;
+  if (!(k > 0.0)) return std::numeric_limits<double>::infinity();
+  return not_beyond_mass_damping(root_of_step(k, bound.dashpots, 0.0, 1.0), damping);
+}
+
 /// Calls body(equations) with those of block i, in the matrices that it needs.
 template <class Body>
 auto with_equations(const StiffnessInputs& w, std::size_t i, Body body) {
@@ -127,6 +135,10 @@ class BlockSteps {
     const std::uint64_t now = equations_hash(w_, i);
     if (now == 0 || now != known_.equations_hash[i]) {
       known_.equations_hash[i] = now;
+      if (w_.blocks.is_meshed(i)) {
+        known_.estimate[i] = known_.exact[i] = mesh_step(mesh_bound(w_, i), w_.damping);
+        return known_.exact[i];
+      }
       with_equations(w_, i, [&](const auto& q) {
         known_.estimate[i] = lower_estimate(q, w_.damping);
         known_.exact[i] = known_.estimate[i] < limit ? critical_step_of(q, w_.damping) : unknown;
@@ -220,6 +232,15 @@ StepBound step_bound(const StiffnessInputs& inputs, StepCache* known) {
   bound.critical_step = critical.step;
   bound.block = critical.block;
   if (bound.block == no_id) return bound;
+  if (inputs.blocks.is_meshed(bound.block)) {
+    const MeshBound of_mesh = mesh_bound(inputs, bound.block);
+    bound.contact = of_mesh.contact;
+    bound.contact_part = of_mesh.of_contacts;
+    bound.boundary_part = of_mesh.of_boundaries;
+    bound.bolt_part = of_mesh.of_bolts;
+    bound.elastic_part = 1.0 - bound.contact_part - bound.boundary_part - bound.bolt_part;
+    return bound;
+  }
   with_equations(inputs, bound.block, [&](const auto& k) { explain(bound, inputs, k); });
   return bound;
 }

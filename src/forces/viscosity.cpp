@@ -32,12 +32,14 @@ void fill_viscosity(Masses& masses, const BlockSet& b, const Damping& damping) {
   if (damping.rayleigh ? damping.rayleigh->fraction == 0.0 : elastic) return;
   masses.viscosity.assign(b.size(), 0.0);
   parallel_for(b.size(), [&](std::size_t i) {
+    if (b.is_meshed(i)) return;
     masses.viscosity[i] = damping.rayleigh ? damping.rayleigh->stiffness()
                                            : 2.0 * b.damping[i] / lowest_frequency(b, masses, i);
   });
-  if (!b.bending.any()) return;
+  if (b.mode_places() == 0) return;
   for (std::vector<double>& rate : masses.mode_damping) rate.assign(in_groups(b.size()), 0.0);
   parallel_for(b.size(), [&](std::size_t i) {
+    if (b.is_meshed(i)) return;
     const std::array<double, bendings + 1> along = stiffness_along(b.bending, b.modes(i), i);
     for (std::size_t k = 0; k <= bendings; ++k) {
       const double square = std::max(along[k], 0.0) * masses.mode_inverse[i];

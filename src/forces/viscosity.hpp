@@ -12,8 +12,8 @@ double lowest_frequency(const BlockSet& blocks, const Masses& masses, std::size_
 
 /// Fills Masses::viscosity, eta = 2 zeta/w with zeta of BlockSet::damping and w the block's lowest
 /// frequency; with Rayleigh damping, its stiffness-proportional part instead. The same for the
-/// modes of blocks that bend, Masses::mode_damping, each with its own frequency. Call again
-/// whenever masses or damping change.
+/// modes of blocks that bend, Masses::mode_damping, each with its own frequency. Meshed blocks
+/// have none: it would damp the waves in them. Call again whenever masses or damping change.
 void fill_viscosity(Masses& masses, const BlockSet& blocks, const Damping& damping);
 
 }  // namespace edda

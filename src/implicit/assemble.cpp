@@ -16,13 +16,13 @@ constexpr double single = 10.0;  // times that of all blocks together (root of t
 /// Corner forces of a face as generalised forces on the block of this row and on its partner: a
 /// spring of stiffness p adds p u u^T and p u w^T to the row.
 struct Directions {
-  BodyVector own, other;
+  BodyColumn own, other;
 };
 
 Directions on_both(const BlockSet& b, const FaceSet& c, std::size_t k, const CornerForces& f,
                    bool of_edge) {
-  const BodyVector edge = at_corner(b, c.edge[k], f.p1) + at_corner(b, c.edge_end[k], f.p2);
-  const BodyVector facing = at_corner(b, c.facing[k], f.q1) + at_corner(b, c.facing_end[k], f.q2);
+  const BodyColumn edge = at_corner(b, c.edge[k], f.p1) + at_corner(b, c.edge_end[k], f.p2);
+  const BodyColumn facing = at_corner(b, c.facing[k], f.q1) + at_corner(b, c.facing_end[k], f.q2);
   return of_edge ? Directions{edge, facing} : Directions{facing, edge};
 }
 
@@ -51,11 +51,11 @@ bool assemble_row(ImplicitSolver& s, const ImplicitScene& scene, const ImplicitS
   const BlockSet& b = scene.blocks;
   const Id i = s.block_of[row];
   const double h = settings.step;
-  const Rotation r = rotation(deformation(b, state.x, state.y, i));
+  const Rotation r = rotation(deformation(b, state.position, i));
   const Rotation none{1.0, 0.0, 2.0, 0.5};
   BodyMatrix own = rotated(s.elastic[i], r);
   if (settings.dynamic && !scene.masses.viscosity.empty()) {
-    const Deformation f = deformation(b, state.x, state.y, i);
+    const Deformation f = deformation(b, state.position, i);
     own += (1.0 / h) * of_body(viscous_matrix(b, scene.masses, i, f),
                                rotated(viscosity_of_modes(b, scene.masses, i), r));
   }
@@ -80,7 +80,7 @@ bool assemble_row(ImplicitSolver& s, const ImplicitScene& scene, const ImplicitS
                      sb = on_both(b, c, k, spring.along_b, of_edge);
     const auto add = [&](const Directions& u, const Directions& v, double stiffness) {
       if (stiffness == 0.0) return;
-      const BodyVector force = stiffness * u.own;
+      const BodyColumn force = stiffness * u.own;
       own.noalias() += force * v.own.transpose();
       if (slot != no_id) s.matrix.at(row, slot).noalias() += force * v.other.transpose();
     };
@@ -155,7 +155,7 @@ bool assemble(ImplicitSolver& s, const ImplicitScene& scene, const ImplicitSetti
 
 double measure_residual(ImplicitSolver& s, const ImplicitScene& scene,
                         const ImplicitSettings& settings, const State& state,
-                        const TiledFaces& faces, const NodalForces& forces) {
+                        const TiledFaces& faces, const BodyVectors& forces) {
   const BlockSet& b = scene.blocks;
   s.by_faces.assign(b.size(), 0.0);
   add_sizes_of_forces(faces, b, s.by_faces);
@@ -166,15 +166,13 @@ double measure_residual(ImplicitSolver& s, const ImplicitScene& scene,
   s.carried.resize(s.block_of.size());
   parallel_for(s.block_of.size(), [&](std::size_t row) {
     const Id i = s.block_of[row];
-    BodyVector moved = (2.0 / (h * h) + 2.0 * a / h) * s.matrix.part(s.moved, row);
-    if (settings.dynamic)
-      moved -= (2.0 / h + a) * body_vector(b, state.vx, state.vy, state.bend_rate, i);
-    const BodyVector force = body_vector(b, forces.x, forces.y, forces.modes, i),
-                     inertia = s.mass[i] * moved;
-    const BodyVector left = force + viscous_force(s, scene, settings, state, row) - inertia;
+    BodyColumn moved = (2.0 / (h * h) + 2.0 * a / h) * s.matrix.part(s.moved, row);
+    if (settings.dynamic) moved -= (2.0 / h + a) * column_of(b, state.velocity, i);
+    const BodyColumn force = column_of(b, forces, i), inertia = s.mass[i] * moved;
+    const BodyColumn left = force + viscous_force(s, scene, settings, state, row) - inertia;
     s.matrix.part(s.residual, row) = left;
     const double carried = b.mass[i] * gravity + force.norm() + inertia.norm() + s.by_faces[i];
-    const double place = norm(centroid(state.x, state.y, i)) + b.radius[i];
+    const double place = norm(centroid(state.position, i)) + b.radius[i];
     const double rounding = 1e-14 * place * s.stiffest[row];
     s.error[row] = left.norm() / (single * balance * carried + rounding + 1e-300);
     s.carried[row] = carried + rounding / balance;

@@ -25,6 +25,6 @@ bool assemble(ImplicitSolver& solver, const ImplicitScene& scene, const Implicit
 /// of all together: up to 1 the step is in balance; NaN where a block has lost its shape.
 double measure_residual(ImplicitSolver& solver, const ImplicitScene& scene,
                         const ImplicitSettings& settings, const State& state,
-                        const TiledFaces& faces, const NodalForces& forces);
+                        const TiledFaces& faces, const BodyVectors& forces);
 
 }  // namespace edda

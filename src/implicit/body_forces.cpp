@@ -10,7 +10,7 @@ namespace {
 
 /// Adds the forces of block i where its modes have the stresses g, N in its own frame, and of the
 /// couple that goes with them (bent_state.hpp).
-void add_stress_of_modes(BodyVector& on, const BlockSet& b, const BentState& at,
+void add_stress_of_modes(BodyColumn& on, const BlockSet& b, const BentState& at,
                          const ModesOfBlock& g, std::size_t i) {
   on.head<degrees_of_freedom>() +=
       nodal(couple_on_nodes(b, at.r, couple_of(g, at.s, at.modes.count), i));
@@ -20,9 +20,8 @@ void add_stress_of_modes(BodyVector& on, const BlockSet& b, const BentState& at,
   }
 }
 
-BentState bent_at(const BlockSet& b, const Nodes& x, const Nodes& y, const ModeVectors& bend,
-                  std::size_t i) {
-  return bent_state(b, bend, rotation(deformation(b, x, y, i)), i);
+BentState bent_at(const BlockSet& b, const BodyVectors& position, std::size_t i) {
+  return bent_state(b, position.modes, rotation(deformation(b, position, i)), i);
 }
 
 /// Stresses of the damping of modes at the rates p.
@@ -38,23 +37,12 @@ void damp(const BlockSet& b, const Masses& masses, const BlockModes& modes, std:
 
 }  // namespace
 
-double stored_energy(const ImplicitScene& scene, const State& s, std::size_t i) {
+BodyColumn elastic_force(const ImplicitScene& scene, const State& s, std::size_t i) {
   const BlockSet& b = scene.blocks;
-  const Deformation f = deformation(b, s.x, s.y, i);
-  const Tensor e = corotated_strain(f, rotation(f));
-  const double strain = strain_energy(e, e, b.volume[i], b.lame_lambda[i], b.lame_mu[i]) +
-                        bending_energy(b, s, scene.locked, 0.0, i);
-  if (b.initial_xx.empty()) return strain;
-  return strain +
-         initial_energy(f, f, initial_stress(b, i), b.volume[i], b.lame_lambda[i], b.lame_mu[i]);
-}
-
-BodyVector elastic_force(const ImplicitScene& scene, const State& s, std::size_t i) {
-  const BlockSet& b = scene.blocks;
-  BodyVector on = BodyVector::Zero(components_of(b, i));
+  BodyColumn on = BodyColumn::Zero(components_of(b, i));
   on.head<degrees_of_freedom>() =
-      nodal(elastic_forces(b, stress_in(b, i, deformation(b, s.x, s.y, i)), i));
-  const BentState at = bent_at(b, s.x, s.y, s.bend, i);
+      nodal(elastic_forces(b, stress_in(b, i, deformation(b, s.position, i)), i));
+  const BentState at = bent_at(b, s.position, i);
   if (at.modes.count == 0) return on;
   ModesOfBlock g = elastic_stress(b, at, i);
   for (std::size_t a = 0; scene.locked.size() > 0 && a < at.modes.count; ++a)
@@ -63,23 +51,23 @@ BodyVector elastic_force(const ImplicitScene& scene, const State& s, std::size_t
   return on;
 }
 
-BodyVector viscous_force(const ImplicitSolver& s, const ImplicitScene& scene,
+BodyColumn viscous_force(const ImplicitSolver& s, const ImplicitScene& scene,
                          const ImplicitSettings& settings, const State& state, std::size_t row) {
   const BlockSet& b = scene.blocks;
   const Id i = s.block_of[row];
-  BodyVector on = BodyVector::Zero(components_of(b, i));
+  BodyColumn on = BodyColumn::Zero(components_of(b, i));
   if (!settings.dynamic || scene.masses.viscosity.empty()) return on;
   const double h = settings.step;
   const NodeVectors rate =
       (1.0 / h) * vectors_of(s.matrix.part(s.moved, row).head<degrees_of_freedom>());
-  const StrainFrame before = strain_frame(deformation(b, s.start_x, s.start_y, i));
+  const StrainFrame before = strain_frame(deformation(b, s.start, i));
   const PiolaStress p = viscous_stress(b, scene.masses.viscosity[i], i,
-                                       strain_frame(deformation(b, state.x, state.y, i)),
+                                       strain_frame(deformation(b, state.position, i)),
                                        strain_rate_over(before, gradient_of(b, rate, i), h));
   on.head<degrees_of_freedom>() = nodal(elastic_forces(b, p, i));
-  const BentState now = bent_at(b, state.x, state.y, state.bend, i);
+  const BentState now = bent_at(b, state.position, i);
   if (now.modes.count == 0) return on;
-  const BentState then = bent_at(b, s.start_x, s.start_y, s.start_bend, i);
+  const BentState then = bent_at(b, s.start, i);
   ModesOfBlock g;
   for (std::size_t a = 0; a < now.modes.count; ++a) g.set(a, (now.s[a] - then.s[a]) / h);
   damp(b, scene.masses, now.modes, i, g);

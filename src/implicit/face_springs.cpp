@@ -123,17 +123,17 @@ void begin_springs(FaceSprings& s, const TrialFaces& of, const FaceScene& scene)
 }
 
 std::size_t evaluate_springs(FaceSprings& s, const TrialFaces& of, const FaceScene& scene,
-                             double step, bool first, const ForcesOfFaces& on) {
+                             double step, bool first, BodyVectors& on) {
   FaceSet& c = of.faces;
   const FaceTiles& t = of.tiled.tiles;
   restore_activity(s, of, scene.blocks);
   FacesInStep faces(c, of.tiled, scene, step, 0.0, on, true);
   faces.sweep();
-  const std::vector<Id> asking = faces.asking();
-  note(s, of, asking);
-  faces.decide_and_evaluate(asking);
+  const std::vector<Id> undecided = faces.undecided();
+  note(s, of, undecided);
+  faces.decide_and_evaluate(undecided);
   s.first = first;
-  std::vector<std::size_t> changed(c.chunks(), 0);
+  std::vector<std::size_t> changed(c.failure_groups(), 0);
   const auto look = [&](std::size_t q, std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) {
       std::uint8_t state = 0;
@@ -146,7 +146,7 @@ std::size_t evaluate_springs(FaceSprings& s, const TrialFaces& of, const FaceSce
       s.state[k] = state;
     }
   };
-  parallel_chunks(c.size(), FaceSet::chunk, 40, look);
+  parallel_chunks(c.size(), FaceSet::failure_group, 40, look);
   std::size_t sum = 0;
   for (const std::size_t n : changed) sum += n;
   return sum;

@@ -43,7 +43,7 @@ void begin_springs(FaceSprings& springs, const TrialFaces& of, const FaceScene& 
 /// ends that slid in the last step are then assumed to continue sliding. Returns how many faces
 /// have changed their state.
 std::size_t evaluate_springs(FaceSprings& springs, const TrialFaces& of, const FaceScene& scene,
-                             double step, bool first, const ForcesOfFaces& on);
+                             double step, bool first, BodyVectors& on);
 
 /// The springs of face k in the matrix.
 FaceStiffness springs_of(const FaceSprings& springs, const FaceSet& faces, const FaceScene& scene,

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/parallel.hpp"
+#include "forces/bending_forces.hpp"
 #include "implicit/assemble.hpp"
 #include "implicit/body_forces.hpp"
 
@@ -16,7 +17,7 @@ constexpr double tightest = 1e-9, loosest = 1e-2, margin = 0.03;
 
 void place_all(const BlockSet& b, const State& s, Pose& pose) {
   parallel_for(b.size(), [&](std::size_t i) {
-    if (is_free(b, s, i)) place_vertices(b, s.x, s.y, s.bend, i, pose.x, pose.y);
+    if (is_free(b, s, i)) place_vertices(b, s.position, i, pose.x, pose.y);
   });
 }
 
@@ -33,25 +34,19 @@ double largest_move(const Pose& pose) {
 void begin(ImplicitSolver& s, const ImplicitScene& scene, const State& state, Pose& pose,
            const TrialFaces& of) {
   const BlockSet& b = scene.blocks;
-  s.start_x = state.x;
-  s.start_y = state.y;
-  s.start_bend = state.bend;
+  s.start = state.position;
   pose.x1 = pose.x;
   pose.y1 = pose.y;
   begin_springs(s.springs, of, scene.faces(pose));
   // Of blocks that have none, none are summed.
-  if (s.on_faces.x[0].empty() || s.pattern_of != of.faces.rebuilds) s.on_faces = no_forces(b);
+  if (is_empty(s.on_faces) || s.pattern_of != of.faces.rebuilds) s.on_faces = zero_vectors(b);
   if (s.pattern_of != of.faces.rebuilds) set_pattern(s, scene, state, pose, of);
   s.pattern_of = of.faces.rebuilds;
   s.moved = Eigen::VectorXd::Zero(s.matrix.lines());
-  if (s.mean_velocity_x[0].empty()) {
-    s.mean_velocity_x = state.vx;
-    s.mean_velocity_y = state.vy;
-    s.mean_bend_rate = state.bend_rate;
-  }
+  if (is_empty(s.mean_velocity)) s.mean_velocity = state.velocity;
   s.energy.resize(b.size());
   parallel_for(b.size(), [&](std::size_t i) {
-    s.energy[i] = is_free(b, state, i) ? stored_energy(scene, state, i) : 0.0;
+    s.energy[i] = is_free(b, state, i) ? stored_energy(b, state, {&scene.locked}, 0.0, i) : 0.0;
   });
   s.iterations = 0;
   s.switched = 0;
@@ -63,18 +58,15 @@ void move(ImplicitSolver& s, const ImplicitScene& scene, double part, State& sta
   s.moved = s.base + part * s.correction;
   parallel_for(s.block_of.size(), [&](std::size_t row) {
     const Id i = s.block_of[row];
-    const BodyVector at = body_vector(scene.blocks, s.start_x, s.start_y, s.start_bend, i) +
-                          s.matrix.part(s.moved, row);
-    store(at, scene.blocks, state.x, state.y, state.bend, i);
+    const BodyColumn at = column_of(scene.blocks, s.start, i) + s.matrix.part(s.moved, row);
+    store(at, scene.blocks, state.position, i);
   });
   place_all(scene.blocks, state, pose);
   s.last_displacement = largest_move(pose);
 }
 
 void go_back(ImplicitSolver& s, const BlockSet& b, State& state, Pose& pose, const TrialFaces& of) {
-  state.x = s.start_x;
-  state.y = s.start_y;
-  state.bend = s.start_bend;
+  state.position = s.start;
   pose.x = pose.x1;
   pose.y = pose.y1;
   go_back(s.springs, of, b);
@@ -98,9 +90,9 @@ bool solve(ImplicitSolver& s, const ImplicitScene& scene, const ImplicitSettings
 double dissipated(const ImplicitSolver& s, const ImplicitScene& scene,
                   const ImplicitSettings& settings, const State& state, const Pose& pose, Id row) {
   const Id i = s.block_of[row];
-  double sum = s.energy[i] - stored_energy(scene, state, i);
-  const BodyVector step = s.matrix.part(s.moved, row),
-                   velocity = body_vector(scene.blocks, state.vx, state.vy, state.bend_rate, i);
+  double sum = s.energy[i] - stored_energy(scene.blocks, state, {&scene.locked}, 0.0, i);
+  const BodyColumn step = s.matrix.part(s.moved, row),
+                   velocity = column_of(scene.blocks, state.velocity, i);
   sum -= elastic_force(scene, state, i).dot(step);
   sum -= viscous_force(s, scene, settings, state, row).dot(step);
   const BoundarySprings& springs = scene.springs;
@@ -111,7 +103,7 @@ double dissipated(const ImplicitSolver& s, const ImplicitScene& scene,
                   uy * (springs.kxy[q] * ux + springs.kyy[q] * uy));
   }
   const double h = settings.step;
-  const BodyVector after = 2.0 / h * step - (settings.dynamic ? 1.0 : 0.0) * velocity;
+  const BodyColumn after = 2.0 / h * step - (settings.dynamic ? 1.0 : 0.0) * velocity;
   sum += settings.mass_damping * step.dot(s.mass[i] * after);
   if (!settings.dynamic)
     sum += 0.5 * after.dot(s.mass[i] * after) + 0.5 * velocity.dot(s.mass[i] * velocity);
@@ -123,35 +115,34 @@ double dissipated(const ImplicitSolver& s, const ImplicitScene& scene,
 /// loss about the centre of mass, -sum D x M v_n, is returned as a rotation of the whole block; for
 /// a free block it is all that would slow its spin. Returns the energy added, J.
 double restore_angular_momentum(const ImplicitSolver& s, const BlockSet& b,
-                                const BodyVector& before, State& state, Id row) {
+                                const BodyColumn& before, State& state, Id row) {
   const Id i = s.block_of[row];
   const BodyMass& mass = s.mass[i];
-  const BodyVector x = body_vector(b, state.x, state.y, state.bend, i),
-                   v = body_vector(b, state.vx, state.vy, state.bend_rate, i),
+  const BodyColumn x = column_of(b, state.position, i), v = column_of(b, state.velocity, i),
                    step = s.matrix.part(s.moved, row);
-  const auto sum = [](const BodyVector& of) {
+  const auto sum = [](const BodyColumn& of) {
     return resultant(vectors_of(of.head<degrees_of_freedom>()));
   };
-  const auto moment = [](const BodyVector& arm, const BodyVector& of) {
+  const auto moment = [](const BodyColumn& arm, const BodyColumn& of) {
     double whole = 0.0;
     for (Eigen::Index k = 0; k < arm.size(); k += 2) {
       whole = whole + arm[k] * of[k + 1] - arm[k + 1] * of[k];
     }
     return whole;
   };
-  BodyVector shift = BodyVector::Zero(x.size());
+  BodyColumn shift = BodyColumn::Zero(x.size());
   shift.head<degrees_of_freedom>() = nodal(at_every_node({1.0, 0.0}));
   const double total = shift.dot(mass * shift);
   const Vec2 centre = 1.0 / total * sum(mass * x), moved = 1.0 / total * sum(mass * step);
-  const BodyVector momentum = mass * before;
+  const BodyColumn momentum = mass * before;
   const double missing = cross(moved, sum(momentum)) - moment(step, momentum);
-  BodyVector spin(x.size());
+  BodyColumn spin(x.size());
   for (Eigen::Index k = 0; k < x.size(); k += 2) {
     const Vec2 of_node = k < row_of_node(nodes_per_block) ? centre : Vec2{};
     spin.segment<2>(k) << of_node.y - x[k + 1], x[k] - of_node.x;
   }
   const double inertia = spin.dot(mass * spin), rate = missing / inertia;
-  store(BodyVector(v + rate * spin), b, state.vx, state.vy, state.bend_rate, i);
+  store(BodyColumn(v + rate * spin), b, state.velocity, i);
   return rate * spin.dot(mass * v) + 0.5 * rate * rate * inertia;
 }
 
@@ -165,12 +156,10 @@ void finish(ImplicitSolver& s, const ImplicitScene& scene, const ImplicitSetting
     const Id i = s.block_of[row];
     damping_work[i] += dissipated(s, scene, settings, state, pose, static_cast<Id>(row));
     const BlockSet& b = scene.blocks;
-    const BodyVector before = body_vector(b, state.vx, state.vy, state.bend_rate, i),
-                     step = s.matrix.part(s.moved, row);
-    store(BodyVector(step / h), b, s.mean_velocity_x, s.mean_velocity_y, s.mean_bend_rate, i);
+    const BodyColumn before = column_of(b, state.velocity, i), step = s.matrix.part(s.moved, row);
+    store(BodyColumn(step / h), b, s.mean_velocity, i);
     const double goes_on = settings.dynamic ? 1.0 : 0.0;
-    store(BodyVector(goes_on * (2.0 / h * step - before)), b, state.vx, state.vy, state.bend_rate,
-          i);
+    store(BodyColumn(goes_on * (2.0 / h * step - before)), b, state.velocity, i);
     if (settings.dynamic) {
       damping_work[i] -= restore_angular_momentum(s, b, before, state, static_cast<Id>(row));
     }
@@ -182,7 +171,7 @@ void finish(ImplicitSolver& s, const ImplicitScene& scene, const ImplicitSetting
 class Rounds {
  public:
   Rounds(ImplicitSolver& solver, const ImplicitScene& scene, const ImplicitSettings& settings,
-         State& state, Pose& pose, const TrialFaces& contacts, NodalForces& forces)
+         State& state, Pose& pose, const TrialFaces& contacts, BodyVectors& forces)
       : s_(solver),
         scene_(scene),
         settings_(settings),
@@ -218,11 +207,10 @@ class Rounds {
   double balance() {
     const bool first = s_.iterations == 0;
     const std::size_t changed =
-        evaluate_springs(s_.springs, c_, scene_.faces(pose_), settings_.step, first,
-                         {s_.on_faces.x, s_.on_faces.y, s_.on_faces.modes});
+        evaluate_springs(s_.springs, c_, scene_.faces(pose_), settings_.step, first, s_.on_faces);
     if (!first) s_.switched += changed;
     gather_forces(forces_, scene_.blocks, state_, pose_, s_.on_faces, scene_.springs,
-                  scene_.gravity, scene_.loads, scene_.locked);
+                  scene_.gravity, scene_.loads, {&scene_.locked});
     return measure_residual(s_, scene_, settings_, state_, c_.tiled, forces_);
   }
 
@@ -235,8 +223,7 @@ class Rounds {
     parallel_for(s_.block_of.size(), [&](std::size_t row) {
       const Id i = s_.block_of[row];
       s_.matrix.part(s_.correction, row) =
-          settings_.step *
-          body_vector(scene_.blocks, s_.mean_velocity_x, s_.mean_velocity_y, s_.mean_bend_rate, i);
+          settings_.step * column_of(scene_.blocks, s_.mean_velocity, i);
     });
     move(s_, scene_, 1.0, state_, pose_);
   }
@@ -296,14 +283,14 @@ class Rounds {
   State& state_;
   Pose& pose_;
   const TrialFaces& c_;
-  NodalForces& forces_;
+  BodyVectors& forces_;
 };
 
 }  // namespace
 
 Attempt newmark_step(ImplicitSolver& s, const ImplicitScene& scene,
                      const ImplicitSettings& settings, State& state, Pose& pose,
-                     const TrialFaces& c, NodalForces& forces, std::vector<double>& damping_work) {
+                     const TrialFaces& c, BodyVectors& forces, std::vector<double>& damping_work) {
   std::vector<Id> broken;
   const Attempt attempt = Rounds(s, scene, settings, state, pose, c, forces).run(broken);
   if (attempt == Attempt::accepted) {

@@ -61,10 +61,8 @@ struct ImplicitSolver {
   std::vector<BodyMass> mass;                    ///< [nb]
   std::uint64_t pattern_of = ~std::uint64_t{0};  ///< FaceSet::rebuilds of the list of faces that
                                                  ///< the pattern is for
-  Nodes start_x, start_y;                  ///< [nodes][nb] positions at the start of the step, m
-  ModeVectors start_bend;                  ///< [modes] amplitudes there, m
-  Nodes mean_velocity_x, mean_velocity_y;  ///< [nodes][nb] mean velocity in the last step, m/s
-  ModeVectors mean_bend_rate;              ///< [modes] the same of the modes, m/s
+  BodyVectors start;                             ///< positions at the start of the step, m
+  BodyVectors mean_velocity;                     ///< in the last step, m/s
   // [matrix.lines()] each:
   Eigen::VectorXd moved;             ///< displacement of the step D, m
   Eigen::VectorXd residual;          ///< N
@@ -74,7 +72,7 @@ struct ImplicitSolver {
   std::vector<double> error;         ///< [rows] working array of measure_residual()
   std::vector<double> energy;        ///< [nb] stored_energy() at the start of the step, J
   std::vector<double> by_faces;      ///< [nb] sizes of the forces of the faces on it, N
-  NodalForces on_faces;              ///< forces of the faces in the last iteration, N
+  BodyVectors on_faces;              ///< forces of the faces in the last iteration, N
   int iterations = 0;                ///< iterations of the last attempt
   std::uint64_t switched = 0;        ///< changes of contact states in it
   double last_displacement = 0.0;    ///< m: largest displacement of a vertex
@@ -85,7 +83,7 @@ struct ImplicitSolver {
 /// they are unchanged, bit for bit; `forces` are those of the last trial position.
 Attempt newmark_step(ImplicitSolver& solver, const ImplicitScene& scene,
                      const ImplicitSettings& settings, State& state, Pose& pose,
-                     const TrialFaces& contacts, NodalForces& forces,
+                     const TrialFaces& contacts, BodyVectors& forces,
                      std::vector<double>& damping_work);
 
 }  // namespace edda

@@ -7,6 +7,7 @@
 #include "base/parallel.hpp"
 #include "blocks/free_blocks.hpp"
 #include "integrate/kick.hpp"
+#include "integrate/mesh_step.hpp"
 
 namespace edda {
 namespace {
@@ -81,8 +82,7 @@ OwnKicks own_kicks(const Leap& leap, double h_of_positions) {
 }
 
 Leap damped_by(const Leap& leap, const StepDamping& other) {
-  return {leap.blocks, leap.masses, leap.force_x, leap.force_y,     leap.old_vx,  leap.old_vy,
-          leap.h_old,  leap.h_new,  other,        leap.force_modes, leap.old_rate};
+  return {leap.blocks, leap.masses, leap.force, leap.old_velocity, leap.h_old, leap.h_new, other};
 }
 
 /// The first block of [begin, end) that local damping spares; else `end`.
@@ -97,15 +97,14 @@ double local_damping_of(const StepDamping& damping, std::size_t i) {
   return next_spared(damping, i, i + 1) == i ? 0.0 : damping.local;
 }
 
-/// The kick of block i, with the damping that acts on it.
+}  // namespace
+
 Kick kick_of_block(const Leap& leap, std::size_t i) {
   Kick kick =
       leap.damping.kicks != nullptr ? own_kicks(leap, leap.h_new).of(i) : kick_of(leap, leap.h_new);
   kick.local = local_damping_of(leap.damping, i);
   return kick;
 }
-
-}  // namespace
 
 void advance(State& s, const Leap& leap, std::size_t begin, std::size_t end) {
   const BlockSet& b = leap.blocks;
@@ -121,22 +120,17 @@ void advance(State& s, const Leap& leap, std::size_t begin, std::size_t end) {
     begin = i + 1;
   }
   const double h_new = leap.h_new;
-  const StepsAround step{leap.old_vx, leap.old_vy, leap.h_old, h_new};
+  const StepsAround step{leap.old_velocity, leap.h_old, h_new};
   // With strain damping the nodes of a block move together, after all have their new velocities.
   const bool strains = damping.strain != nullptr;
   const double h_of_positions = strains ? 0.0 : h_new;
   const Kick kick = kick_of(leap, h_of_positions);
   if (masses.kind != MassKind::consistent) {
     for (std::size_t k = 0; k < nodes_per_block; ++k) {
-      const NodeView node{masses.node_inverse[k].data(),
-                          leap.force_x[k].data(),
-                          leap.force_y[k].data(),
-                          leap.old_vx[k].data(),
-                          leap.old_vy[k].data(),
-                          s.vx[k].data(),
-                          s.vy[k].data(),
-                          s.x[k].data(),
-                          s.y[k].data()};
+      const NodeView node{
+          masses.node_inverse[k].data(), leap.force.x[k].data(),        leap.force.y[k].data(),
+          leap.old_velocity.x[k].data(), leap.old_velocity.y[k].data(), s.velocity.x[k].data(),
+          s.velocity.y[k].data(),        s.position.x[k].data(),        s.position.y[k].data()};
       if (damping.kicks != nullptr) {
         advance_nodes(node, own_kicks(leap, h_of_positions), begin, end);
       } else {
@@ -147,8 +141,8 @@ void advance(State& s, const Leap& leap, std::size_t begin, std::size_t end) {
     return;
   }
   for (std::size_t i = begin; i < end; ++i) {
-    const NodeVectors v = vectors_of(leap.old_vx, leap.old_vy, i);
-    NodeVectors f = vectors_of(leap.force_x, leap.force_y, i);
+    const NodeVectors v = vectors_of(leap.old_velocity, i);
+    NodeVectors f = vectors_of(leap.force, i);
     for (std::size_t k = 0; k < nodes_per_block; ++k) {
       f[k] += local_damping(f[k], v[k], damping.local);
     }
@@ -156,18 +150,21 @@ void advance(State& s, const Leap& leap, std::size_t begin, std::size_t end) {
     const Kick own = damping.kicks != nullptr ? own_kicks(leap, h_of_positions).of(i) : kick;
     for (std::size_t k = 0; k < nodes_per_block; ++k) {
       const Vec2 after = kicked(v[k], a[k], own);
-      s.vx[k][i] = after.x;
-      s.vy[k][i] = after.y;
-      s.x[k][i] += own.h_new * after.x;
-      s.y[k][i] += own.h_new * after.y;
+      s.velocity.x[k][i] = after.x;
+      s.velocity.y[k][i] = after.y;
+      s.position.x[k][i] += own.h_new * after.x;
+      s.position.y[k][i] += own.h_new * after.y;
     }
   }
   if (strains) damp_strain_and_move(*damping.strain, b, masses, s, step, begin, end);
 }
 
-ModeLeap of_modes(const Leap& leap, ModeDamping* damping) {
-  return {leap.blocks, leap.masses, *leap.force_modes, *leap.old_rate, leap.old_vx,
-          leap.old_vy, damping};
+double velocity_per_acceleration(const Leap& leap, std::size_t i) {
+  return leap.damping.kicks != nullptr ? leap.damping.kicks->h[i] : kick_of(leap, leap.h_new).h;
+}
+
+ModeLeap of_modes(const Leap& leap) {
+  return {leap.blocks, leap.masses, leap.force, leap.old_velocity, leap.damping.modes};
 }
 
 namespace {
@@ -204,11 +201,13 @@ void with_kicks(const State& s, const Leap& leap, std::size_t begin, std::size_t
 
 }  // namespace
 
-void advance_modes(State& s, const Leap& leap, ModeDamping* damping, Nodes& fx, Nodes& fy,
-                   std::size_t begin, std::size_t end) {
-  const ModeLeap modes = of_modes(leap, damping);
+void advance_modes(State& s, const Leap& leap, BodyVectors& forces, std::size_t begin,
+                   std::size_t end) {
+  if (leap.blocks.meshes.any()) advance_meshes(s, leap, begin, end);
+  if (!leap.blocks.bending.any()) return;
+  const ModeLeap modes = of_modes(leap);
   with_kicks(s, leap, begin, end, [&](const GroupKick* kicks, std::size_t from, std::size_t last) {
-    advance_modes(s, modes, kicks, fx, fy, from, last);
+    advance_modes(s, modes, kicks, forces, from, last);
   });
 }
 
@@ -220,7 +219,7 @@ void add_and_advance(State& s, const Leap& leap, const ForcesToAdd& forces, std:
     add_to_free(leap.blocks, s, forces, begin, end);
     return advance(s, leap, begin, end);
   }
-  const StepsAround step{leap.old_vx, leap.old_vy, leap.h_old, leap.h_new};
+  const StepsAround step{leap.old_velocity, leap.h_old, leap.h_new};
   if (damping.kicks != nullptr) {
     add_kick_and_damp(*damping.strain, leap.blocks, leap.masses, s, forces, step,
                       own_kicks(leap, leap.h_new), begin, end);
@@ -239,13 +238,13 @@ void advance(State& s, const Leap& leap) {
 namespace {
 
 /// Adds what all damping of the modes has dissipated.
-void account_modes(const State& s, const Leap& leap, DampingWork& work, const ModeDamping* modes) {
+void account_modes(const State& s, const Leap& leap, DampingWork& work) {
   const BlockSet& b = leap.blocks;
-  const bool strain = modes != nullptr && !modes->couple.empty();
-  if (!strain && !leap.damping.any_of_nodes()) return;
-  // What damped is read alone.
-  const ModeLeap of = of_modes(leap, strain ? const_cast<ModeDamping*>(modes) : nullptr);
+  if (leap.damping.modes == nullptr && !leap.damping.any_of_nodes()) return;
+  const ModeLeap of = of_modes(leap);
   parallel_blocks(b.size(), 10, [&](std::size_t, std::size_t begin, std::size_t end) {
+    if (b.meshes.any()) account_meshes(s, leap, work.joules.data(), begin, end);
+    if (!b.bending.any()) return;
     with_kicks(s, leap, begin, end,
                [&](const GroupKick* kicks, std::size_t from, std::size_t last) {
                  account_modes(s, of, kicks, leap.h_old, work.joules.data(), from, last);
@@ -255,12 +254,11 @@ void account_modes(const State& s, const Leap& leap, DampingWork& work, const Mo
 
 }  // namespace
 
-void account_damping(const State& s, const Leap& leap, DampingWork& work,
-                     const ModeDamping* modes) {
+void account_damping(const State& s, const Leap& leap, DampingWork& work) {
   const BlockSet& b = leap.blocks;
-  if (leap.force_modes != nullptr) account_modes(s, leap, work, modes);
+  if (b.mode_places() > 0) account_modes(s, leap, work);
   const StepDamping& damping = leap.damping;
-  const Nodes &old_vx = leap.old_vx, &old_vy = leap.old_vy;
+  const Nodes &old_vx = leap.old_velocity.x, &old_vy = leap.old_velocity.y;
   const double h_old = leap.h_old, h_new = leap.h_new;
   if (damping.strain != nullptr) {
     const double* const of_strain = damping.strain->work.data();
@@ -272,8 +270,8 @@ void account_damping(const State& s, const Leap& leap, DampingWork& work,
     parallel_for(b.size(), [&](std::size_t i) {
       if (!is_free(b, s, i)) return;
       const double local = local_damping_of(damping, i);
-      const NodeVectors before = vectors_of(old_vx, old_vy, i), after = vectors_of(s.vx, s.vy, i);
-      const NodeVectors f = vectors_of(leap.force_x, leap.force_y, i);
+      const NodeVectors before = vectors_of(old_vx, old_vy, i), after = vectors_of(s.velocity, i);
+      const NodeVectors f = vectors_of(leap.force, i);
       NodeVectors moved;
       for (std::size_t k = 0; k < nodes_per_block; ++k) {
         moved[k] = half_way(before[k], after[k], h_old, h_new);
@@ -293,12 +291,12 @@ void account_damping(const State& s, const Leap& leap, DampingWork& work,
          i = next_spared(damping, i + 1, end))
       local[i - begin] = 0.0;
     const DampedView view{values_of(leap.masses.node),
-                          values_of(leap.force_x),
-                          values_of(leap.force_y),
+                          values_of(leap.force.x),
+                          values_of(leap.force.y),
                           values_of(old_vx),
                           values_of(old_vy),
-                          values_of(s.vx),
-                          values_of(s.vy),
+                          values_of(s.velocity.x),
+                          values_of(s.velocity.y),
                           free.data(),
                           local.data(),
                           mass.data(),
@@ -308,31 +306,20 @@ void account_damping(const State& s, const Leap& leap, DampingWork& work,
   });
 }
 
-void undo_step(State& s, const BlockSet& b, double h_new, const Nodes& old_vx, const Nodes& old_vy,
-               const ModeVectors& old_rate) {
-  for (std::size_t m = 0; m < old_rate.size(); ++m) {
-    s.bend.add(m, -h_new * s.bend_rate[m]);
-    s.bend_rate.set(m, old_rate[m]);
-  }
-  parallel_for(b.size(), [&](std::size_t i) {
-    add(-h_new * vectors_of(s.vx, s.vy, i), s.x, s.y, i);
-    store(vectors_of(old_vx, old_vy, i), s.vx, s.vy, i);
-  });
+void undo_step(State& s, double h_new, const BodyVectors& old_velocity) {
+  for (std::size_t m = 0; m < old_velocity.modes.size(); ++m)
+    s.position.modes.add(m, -h_new * s.velocity.modes[m]);
+  parallel_for(s.alive.size(),
+               [&](std::size_t i) { add(-h_new * vectors_of(s.velocity, i), s.position, i); });
+  s.velocity = old_velocity;
 }
 
-void start_velocities(State& s, const BlockSet& b, const Masses& masses, const Nodes& force_x,
-                      const Nodes& force_y, double h, double mass_damping,
-                      const ModeVectors& force_modes) {
+void start_velocities(State& s, const BlockSet& b, const Masses& masses, const BodyVectors& force,
+                      double h, double mass_damping) {
   parallel_for(b.size(), [&](std::size_t i) {
     if (b.fixed[i] || !s.alive[i]) return;
-    const BlockModes modes = b.modes(i);
-    for (std::size_t a = 0; a < modes.count && force_modes.size() > 0; ++a) {
-      const std::size_t m = modes[a];
-      const Vec2 faster = masses.mode_inverse[i] * force_modes[m] - mass_damping * s.bend_rate[m];
-      s.bend_rate.add(m, -0.5 * h * faster);
-    }
-    const NodeVectors a = accelerations(masses, i, vectors_of(force_x, force_y, i));
-    add(-0.5 * h * (a - mass_damping * vectors_of(s.vx, s.vy, i)), s.vx, s.vy, i);
+    const BodyVector a = accelerations(masses, b, i, vector_of(b, force, i));
+    add(-0.5 * h * (a - mass_damping * vector_of(b, s.velocity, i)), b, s.velocity, i);
   });
 }
 

@@ -20,12 +20,22 @@ struct StepDamping {
   const std::vector<Id>* spared = nullptr;
   /// Strain damping of the blocks, prepared for this step; null: none.
   StrainDamping* strain = nullptr;
+  /// The same of the modes of the blocks; null: none is damped.
+  ModeDamping* modes = nullptr;
   /// Each block's own a, set for this step (set_kicks()); null: all have the same.
   const BlockKicks* kicks = nullptr;
 
   /// Whether there is any in proportion to mass, or local damping.
   bool any_of_nodes() const { return mass != 0.0 || local != 0.0 || kicks != nullptr; }
   double mass_of(std::size_t i) const { return kicks == nullptr ? mass : kicks->mass[i]; }
+};
+
+/// The damping of a step, and what it is made of.
+struct DampingOfStep {
+  StepDamping in_force;
+  StrainDamping strain;
+  ModeDamping modes;
+  BlockKicks kicks;  ///< of adaptive damping, block by block
 };
 
 /// Work dissipated by damping of nodes and strain, per block.
@@ -37,25 +47,27 @@ struct DampingWork {
 struct Leap {
   const BlockSet& blocks;
   const Masses& masses;
-  const Nodes &force_x, &force_y;  ///< [nodes][nb] at n, N
-  const Nodes &old_vx, &old_vy;    ///< [nodes][nb] v_{n-1/2}, m/s
-  double h_old, h_new;             ///< last and next step, before and after n, s
+  const BodyVectors& force;         ///< at n, N
+  const BodyVectors& old_velocity;  ///< v_{n-1/2}, m/s
+  double h_old, h_new;              ///< last and next step, before and after n, s
   const StepDamping& damping;
-  const ModeVectors* force_modes = nullptr;  ///< [modes] on the modes, N; null: no block bends
-  const ModeVectors* old_rate = nullptr;     ///< [modes] v_{n-1/2} of the modes, m/s
 };
 
-/// The modes of the blocks in that step; only where some bend.
-ModeLeap of_modes(const Leap& leap, ModeDamping* damping);
+/// Change of the velocity of block i per change of its acceleration in the step, s: h/(1 + a h/2).
+double velocity_per_acceleration(const Leap& leap, std::size_t i);
+/// The kick of block i, with the damping that acts on it.
+Kick kick_of_block(const Leap& leap, std::size_t i);
+/// The modes of the blocks in that step.
+ModeLeap of_modes(const Leap& leap);
 /// Moves the modes of the blocks [begin, end), before their nodes, and adds the couples of their
 /// damping to the forces on these.
-void advance_modes(State& state, const Leap& leap, ModeDamping* damping, Nodes& fx, Nodes& fy,
-                   std::size_t begin, std::size_t end);
+void advance_modes(State& state, const Leap& leap, BodyVectors& forces, std::size_t begin,
+                   std::size_t end);
 
 /// v_{n+1/2} = v_{n-1/2} + a_n (h_old + h_new)/2, x_{n+1} = x_n + h_new v_{n+1/2} for the free
 /// blocks of [begin, end). Mass-proportional damping is centred: v+ = ((1 - a h/2) v- + h f/m)/(1 +
 /// a h/2). Local damping acts with beta |f| against v-, node by node. The velocities of `state` may
-/// be the arrays old_vx, old_vy where the dissipation does not count.
+/// be old_velocity where the dissipation does not count.
 void advance(State& state, const Leap& leap, std::size_t begin, std::size_t end);
 /// The same for all blocks.
 void advance(State& state, const Leap& leap);
@@ -66,17 +78,13 @@ void add_and_advance(State& state, const Leap& leap, const ForcesToAdd& forces, 
 
 /// Accounts for the dissipation of the step just made, once its velocities are final: damping force
 /// times (x_{n+1} - x_{n-1})/2.
-/// `modes`: what the damping of the modes did in it; or null.
-void account_damping(const State& state, const Leap& leap, DampingWork& work,
-                     const ModeDamping* modes = nullptr);
+void account_damping(const State& state, const Leap& leap, DampingWork& work);
 
 /// Undoes the last advance().
-void undo_step(State& state, const BlockSet& blocks, double h_new, const Nodes& old_vx,
-               const Nodes& old_vy, const ModeVectors& old_rate = {});
+void undo_step(State& state, double h_new, const BodyVectors& old_velocity);
 
 /// Start: v_{-1/2} = v_0 - (f/m - a v_0) h/2, with the mass-proportional damping a, 1/s.
 void start_velocities(State& state, const BlockSet& blocks, const Masses& masses,
-                      const Nodes& force_x, const Nodes& force_y, double h,
-                      double mass_damping = 0.0, const ModeVectors& force_modes = {});
+                      const BodyVectors& force, double h, double mass_damping = 0.0);
 
 }  // namespace edda

@@ -63,20 +63,20 @@ GroupView view_of(const ModeLeap& leap, State& s) {
   const BlockSet& b = leap.blocks;
   GroupView v{view_of(b.bending),
               gradients_of(b),
-              values_of(std::as_const(s.x)),
-              values_of(std::as_const(s.y)),
-              values_of(leap.old_vx),
-              values_of(leap.old_vy),
-              leap.force.x.data(),
-              leap.force.y.data(),
-              leap.old_rate.x.data(),
-              leap.old_rate.y.data(),
+              values_of(std::as_const(s.position.x)),
+              values_of(std::as_const(s.position.y)),
+              values_of(leap.old_velocity.x),
+              values_of(leap.old_velocity.y),
+              leap.force.modes.x.data(),
+              leap.force.modes.y.data(),
+              leap.old_velocity.modes.x.data(),
+              leap.old_velocity.modes.y.data(),
               leap.masses.mode_inverse.data(),
               {},
-              s.bend.x.data(),
-              s.bend.y.data(),
-              s.bend_rate.x.data(),
-              s.bend_rate.y.data(),
+              s.position.modes.x.data(),
+              s.position.modes.y.data(),
+              s.velocity.modes.x.data(),
+              s.velocity.modes.y.data(),
               nullptr,
               nullptr,
               nullptr};
@@ -86,11 +86,6 @@ GroupView view_of(const ModeLeap& leap, State& s) {
   v.damp_y = leap.damping->force.y.data();
   v.couple = leap.damping->couple.data();
   return v;
-}
-
-/// w of the rotation r, 1/s, at the rate l of F.
-EDDA_INLINE double spin_of(const Rotation& r, const Deformation& l) {
-  return (r.c * (l.yx - l.xy) - r.s * (l.xx + l.yy)) * r.inverse;
 }
 
 EDDA_INLINE double spin_now(const GroupView& b, const GroupTurn& turn, std::size_t i,
@@ -138,7 +133,10 @@ EDDA_INLINE void damp_group(const GroupView& b, ModePlaces modes, const GroupKic
     rate.x[a] += p.x[a];
     rate.y[a] += p.y[a];
   }
-  for (std::size_t at = 0; at < many; ++at) b.couple[i + at] = couple[at];
+  for (std::size_t at = 0; at < many; ++at) {
+    if (!(kick.moves[at] > 0.0)) couple[at] = 0.0;
+    b.couple[i + at] = couple[at];
+  }
   add_couples(b.gradients, turn, couple, fx, fy, i, many);
 }
 
@@ -218,22 +216,22 @@ EDDA_VECTOR void dissipate(const GroupView b, ModePlaces modes, const GroupKick&
 
 }  // namespace
 
-void advance_modes(State& s, const ModeLeap& leap, const GroupKick* kicks, Nodes& fx, Nodes& fy,
+void advance_modes(State& s, const ModeLeap& leap, const GroupKick* kicks, BodyVectors& forces,
                    std::size_t begin, std::size_t end) {
   const GroupView view = view_of(leap, s);
   const Groups groups = groups_of(leap.blocks);
   groups.for_each(begin, end, [&](std::size_t i, std::size_t many, ModePlaces modes) {
-    advance_group(view, modes, kicks[(i - begin) / group_size], i, many, values_of(fx),
-                  values_of(fy));
+    advance_group(view, modes, kicks[(i - begin) / group_size], i, many, values_of(forces.x),
+                  values_of(forces.y));
   });
 }
 
-void take_back_couples(const ModeDamping& d, const BlockSet& b, const State& s, Nodes& fx,
-                       Nodes& fy, std::size_t begin, std::size_t end) {
+void take_back_couples(const ModeDamping& d, const BlockSet& b, const State& s, BodyVectors& forces,
+                       std::size_t begin, std::size_t end) {
   for (std::size_t i = begin; i < end && !d.couple.empty(); ++i) {
-    if (d.couple[i] == 0.0) continue;
-    const Rotation r = rotation(deformation(b, s.x, s.y, i));
-    add(couple_on_nodes(b, r, -d.couple[i], i), fx, fy, i);
+    if (d.couple[i] == 0.0 || !is_free(b, s, i)) continue;
+    const Rotation r = rotation(deformation(b, s.position, i));
+    add(couple_on_nodes(b, r, -d.couple[i], i), forces, i);
   }
 }
 
@@ -248,7 +246,7 @@ double push_modes(State& s, const ModeLeap& leap, const Kick& kick, const Rotati
     ModesOfBlock p, at_n;
     for (std::size_t a = 0; a < modes.count; ++a) {
       p.set(a, turned_back(r, change[a]));
-      at_n.set(a, s.bend[modes[a]] - kick.h_new * s.bend_rate[modes[a]]);
+      at_n.set(a, s.position.modes[modes[a]] - kick.h_new * s.velocity.modes[modes[a]]);
     }
     ModeDecay<double> decay{{}, 1.0 / (per_mass * kick.h), r.c, r.s};
     for (std::size_t k = 0; k <= bendings; ++k) {
@@ -262,8 +260,8 @@ double push_modes(State& s, const ModeLeap& leap, const Kick& kick, const Rotati
   }
   for (std::size_t a = 0; a < modes.count; ++a) {
     const std::size_t m = modes[a];
-    s.bend_rate.add(m, change[a]);
-    s.bend.add(m, kick.h_new * change[a]);
+    s.velocity.modes.add(m, change[a]);
+    s.position.modes.add(m, kick.h_new * change[a]);
   }
   return couple;
 }
@@ -273,8 +271,8 @@ void account_modes(const State& s, const ModeLeap& leap, const GroupKick* kicks,
   const GroupView view = view_of(leap, const_cast<State&>(s));  // nothing is written through it
   const Groups groups = groups_of(leap.blocks);
   groups.for_each(begin, end, [&](std::size_t i, std::size_t many, ModePlaces modes) {
-    dissipate(view, modes, kicks[(i - begin) / group_size], h_old, i, many, values_of(s.vx),
-              values_of(s.vy), joules);
+    dissipate(view, modes, kicks[(i - begin) / group_size], h_old, i, many, values_of(s.velocity.x),
+              values_of(s.velocity.y), joules);
   });
 }
 

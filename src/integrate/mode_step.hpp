@@ -26,10 +26,9 @@ struct ModeDamping {
 struct ModeLeap {
   const BlockSet& blocks;
   const Masses& masses;
-  const ModeVectors& force;      ///< [modes] at n, N
-  const ModeVectors& old_rate;   ///< [modes] v_{n-1/2}, m/s
-  const Nodes &old_vx, &old_vy;  ///< [nodes][nb] of the nodes, m/s
-  ModeDamping* damping;          ///< null: none is damped
+  const BodyVectors& force;         ///< at n, N
+  const BodyVectors& old_velocity;  ///< v_{n-1/2}, m/s
+  ModeDamping* damping;             ///< null: none is damped
 };
 
 /// The kick of each block of a group, its damping a in proportion to mass (1/s), and whether it
@@ -44,14 +43,14 @@ struct GroupKick {
 };
 
 /// v_{n+1/2} of the modes of the blocks [begin, end), which are whole groups with these kicks,
-/// their positions at n + 1, and the couples of the damping, which are added to the forces fx, fy
-/// on the nodes. The nodes must still be at n.
-void advance_modes(State& state, const ModeLeap& leap, const GroupKick* kicks, Nodes& fx, Nodes& fy,
+/// their positions at n + 1, and the couples of the damping, which are added to the forces on the
+/// nodes. The nodes must still be at n.
+void advance_modes(State& state, const ModeLeap& leap, const GroupKick* kicks, BodyVectors& forces,
                    std::size_t begin, std::size_t end);
 
 /// Takes the couple of the last step back from the forces on the nodes, which must be at n.
 void take_back_couples(const ModeDamping& damping, const BlockSet& blocks, const State& state,
-                       Nodes& fx, Nodes& fy, std::size_t begin, std::size_t end);
+                       BodyVectors& forces, std::size_t begin, std::size_t end);
 
 /// Changes v_{n+1/2} of the modes of block i by what additional forces on them in the step do.
 /// before: how the block stood at n. Returns the additional couple on its nodes, N m.

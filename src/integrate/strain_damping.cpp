@@ -49,7 +49,7 @@ EDDA_INLINE Deformation plus(const Deformation& f, double h, const Deformation& 
 
 /// The frame at step n, when positions are x_{n+1} = x_n + h_new v_{n+1/2} already.
 StrainFrame frame_before(const BlockSet& b, const State& s, double h_new, std::size_t i) {
-  return strain_frame(plus(deformation(b, s.x, s.y, i), -h_new, deformation(b, s.vx, s.vy, i)));
+  return strain_frame(plus(deformation(b, s.position, i), -h_new, deformation(b, s.velocity, i)));
 }
 
 /// Work of s over the displacement (h_old u + h_new v)/2, with the velocities u before and v after
@@ -79,8 +79,7 @@ NodeVectors damped_velocity(StrainDamping& damping, const BlockSet& b, const Mas
 void update_work(StrainDamping& d, const BlockSet& b, const StrainFrame& frame,
                  const StepsAround& step, std::size_t i, const NodeVectors& v) {
   const StrainTerms s{d.stress[0][i], d.stress[1][i], d.stress[2][i]};
-  d.work[i] =
-      work_of(b, frame, s, step.h_old, vectors_of(step.old_vx, step.old_vy, i), step.h_new, v, i);
+  d.work[i] = work_of(b, frame, s, step.h_old, vectors_of(step.old_velocity, i), step.h_new, v, i);
 }
 
 /// Data of the loops over blocks with lumped masses.
@@ -104,12 +103,12 @@ BlocksView blocks_view(StrainDamping& d, const BlockSet& b, const Masses& masses
            d.matrix[4].data(), d.matrix[5].data()},
           {d.stress[0].data(), d.stress[1].data(), d.stress[2].data()},
           d.work.data(),
-          values_of(s.x),
-          values_of(s.y),
-          values_of(s.vx),
-          values_of(s.vy),
-          values_of(step.old_vx),
-          values_of(step.old_vy),
+          values_of(s.position.x),
+          values_of(s.position.y),
+          values_of(s.velocity.x),
+          values_of(s.velocity.y),
+          values_of(step.old_velocity.x),
+          values_of(step.old_velocity.y),
           d.step,
           d.steps.empty() ? nullptr : d.steps.data(),
           step.h_old,
@@ -213,17 +212,17 @@ void damp_strain_and_move(StrainDamping& d, const BlockSet& b, const Masses& mas
   }
   for (std::size_t i = begin; i < end; ++i) {
     if (is_free(b, s, i)) {
-      const StrainFrame frame = strain_frame(deformation(b, s.x, s.y, i));
-      const StrainTerms rate = strain_rate_over(frame, deformation(b, s.vx, s.vy, i), step.h_new);
+      const StrainFrame frame = strain_frame(deformation(b, s.position, i));
+      const StrainTerms rate = strain_rate_over(frame, deformation(b, s.velocity, i), step.h_new);
       for (std::vector<double>& stress : d.stress) stress[i] = 0.0;
       const NodeVectors after =
-          damped_velocity(d, b, masses, i, frame, rate, vectors_of(s.vx, s.vy, i));
-      store(after, s.vx, s.vy, i);
+          damped_velocity(d, b, masses, i, frame, rate, vectors_of(s.velocity, i));
+      store(after, s.velocity, i);
       update_work(d, b, frame, step, i, after);
     } else {
       d.work[i] = 0.0;
     }
-    add(step.h_new * vectors_of(s.vx, s.vy, i), s.x, s.y, i);
+    add(step.h_new * vectors_of(s.velocity, i), s.position, i);
   }
 }
 
@@ -248,7 +247,7 @@ NodeVectors damped_change(StrainDamping& d, const BlockSet& b, const Masses& mas
   const StrainFrame frame = frame_before(b, s, step.h_new, i);
   const NodeVectors remains = damped_velocity(
       d, b, masses, i, frame, strain_rate(frame, gradient_of(b, change, i)), change);
-  update_work(d, b, frame, step, i, vectors_of(s.vx, s.vy, i) + remains);
+  update_work(d, b, frame, step, i, vectors_of(s.velocity, i) + remains);
   return remains;
 }
 

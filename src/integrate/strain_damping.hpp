@@ -36,8 +36,8 @@ struct StrainDamping {
 
 /// How the blocks came to step n, and the steps before and after it.
 struct StepsAround {
-  const Nodes &old_vx, &old_vy;  ///< [nodes][nb] v_{n-1/2}, m/s
-  double h_old, h_new;           ///< step before and after n, s
+  const BodyVectors& old_velocity;  ///< v_{n-1/2}, m/s
+  double h_old, h_new;              ///< step before and after n, s
 };
 
 /// Computes W for the step h (with mass damping a it is h/(1 + a h/2)) unless it is that already.

@@ -1,9 +1,17 @@
 #include "judge/holding.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace edda {
+namespace {
+
+/// Rock that yields flows where a part has gone several times as far as it strains until it yields.
+/// Further on its new shape would hold it: a slope is flatter by then.
+constexpr double most_strains = 3.0;
+
+}  // namespace
 
 Verdict Holding::end(Verdict verdict, std::string reason, Id block) {
   block_ = block;
@@ -19,6 +27,11 @@ Verdict Holding::look(Simulation& sim) {
     part_ = std::max(part_, set.part);
     if (set.part <= criterion_.allowed) continue;
     failed_.insert(failed_.end(), set.blocks.begin(), set.blocks.end());
+  }
+  for (const FlowingPart& flow : judge_.flowing(sim)) {
+    if (flow.area < criterion_.least_area || !std::isfinite(criterion_.allowed)) continue;
+    part_ = std::max(part_, flow.part);
+    if (flow.strains > most_strains) failed_.push_back(flow.block);
   }
   if (!failed_.empty()) {
     const Id first = failed_.front();  // of the set that has moved furthest

@@ -137,7 +137,7 @@ Furthest fastest_of(const Simulation& sim, const std::vector<Id>& blocks) {
   Furthest most;
   for (const Id i : blocks) {
     if (!is_free(sim.scene->blocks, sim.motion.state, i)) continue;
-    const double speed = norm(centroid(sim.motion.state.vx, sim.motion.state.vy, i));
+    const double speed = norm(centroid(sim.motion.state.velocity, i));
     if (speed > most.value) most = {speed, i};
   }
   return most;
@@ -152,8 +152,8 @@ bool Judge::fits(const Simulation& sim) const {
     return !set.blocks.empty() && set.blocks.back() < nb &&
            std::is_sorted(set.blocks.begin(), set.blocks.end());
   };
-  return rests_.size() == nb && motion_.fits(sim.scene->blocks) && slowing_.fits(nb) &&
-         std::all_of(moved_.begin(), moved_.end(), of_model) &&
+  return rests_.size() == nb && motion_.fits(sim.scene->blocks) &&
+         slowing_.fits(sim.scene->blocks) && std::all_of(moved_.begin(), moved_.end(), of_model) &&
          std::all_of(gone_.begin(), gone_.end(), of_model);
 }
 

@@ -57,6 +57,10 @@ class Judge {
   bool all_at_rest() const { return at_rest_in_sequence_ >= looks_in_sequence; }
   /// Sets that have moved by more than moved_little at the last look, the largest part first.
   const std::vector<MovedSet>& moved() const { return moved_; }
+  /// What flows in meshed blocks that have not left their place.
+  std::vector<FlowingPart> flowing(const Simulation& sim) const {
+    return motion_.flowing(sim, left_);
+  }
   /// [nb] 1: the block has left its place, also before; empty: none has.
   const std::vector<std::uint8_t>& left() const { return left_; }
   /// Whether that is so of all free blocks.

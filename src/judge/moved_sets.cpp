@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "blocks/block_groups.hpp"
+#include "blocks/shape_change.hpp"
 #include "step/contact_pairs.hpp"
 
 namespace edda {
@@ -91,6 +92,24 @@ std::vector<std::uint8_t> unsupported(const Simulation& sim, const std::vector<I
   return apart;
 }
 
+/// Mean elastic shear strain (s1 - s3)/(2 G) of the zones of block i that yield in shear or along
+/// their foliation; 0 where none does.
+double strain_at_yield(const Simulation& sim, Id i) {
+  const BlockSet& b = sim.scene->blocks;
+  const Zones& zones = sim.motion.zones;
+  double sum = 0.0, volume = 0.0;
+  for (std::uint32_t z = b.meshes.zone_begin[i]; z < b.meshes.zone_begin[i + 1]; ++z) {
+    const auto yielding = static_cast<Yielding>(zones.yielding[z]);
+    if (yielding == Yielding::nowhere || yielding == Yielding::in_tension) continue;
+    const auto [xx, yy, zz, xy] = zones.stress[z];
+    const double mean = 0.5 * (xx + yy), radius = std::hypot(0.5 * (xx - yy), xy);
+    const double v = sim.scene->zones.shape[z].volume;
+    sum += v * (std::max(mean + radius, zz) - std::min(mean - radius, zz));
+    volume += v;
+  }
+  return volume > 0.0 ? sum / (2.0 * b.lame_mu[i] * volume) : 0.0;
+}
+
 /// Keeps of sets within each other the larger: those found later contain or avoid the earlier ones.
 void keep_outer(std::vector<MovedSet>& sets, std::size_t blocks) {
   std::vector<std::uint8_t> taken(blocks, 0);
@@ -113,9 +132,7 @@ bool counts_in_verdicts(const Simulation& sim, std::size_t i) {
 }
 
 RelativeMotion::RelativeMotion(const Simulation& sim)
-    : x_(sim.motion.state.x),
-      y_(sim.motion.state.y),
-      bend_(sim.motion.state.bend),
+    : then_(sim.motion.state.position),
       ground_(sim.attached.ground.shift),
       shift_(sim.attached.springs.shift) {
   std::vector<std::pair<Id, Id>> pairs;
@@ -150,9 +167,8 @@ RelativeMotion::RelativeMotion(const Simulation& sim)
 bool RelativeMotion::fits(const BlockSet& b) const {
   const std::size_t blocks = b.size();
   const auto below = [blocks](Id i) { return i < blocks; };
-  return x_[0].size() == blocks && y_[0].size() == blocks && apart_.size() == blocks &&
-         bend_.x.size() == b.bending.modes() && bend_.y.size() == b.bending.modes() &&
-         small_.size() == large_.size() && std::all_of(small_.begin(), small_.end(), below) &&
+  return edda::fits(b, then_) && apart_.size() == blocks && small_.size() == large_.size() &&
+         std::all_of(small_.begin(), small_.end(), below) &&
          std::all_of(large_.begin(), large_.end(), below);
 }
 
@@ -168,13 +184,13 @@ double RelativeMotion::size_of(const Simulation& sim, Id i) const {
 double RelativeMotion::moved(const Simulation& sim, const Pair& pair) const {
   const BlockSet& b = sim.scene->blocks;
   const State& s = sim.motion.state;
-  const Deformation now = deformation(b, s.x, s.y, pair.large),
-                    was = deformation(b, x_, y_, pair.large);
+  const Deformation now = deformation(b, s.position, pair.large),
+                    was = deformation(b, then_, pair.large);
   const double det = was.xx * was.yy - was.xy * was.yx;
   const Deformation g{
       (now.xx * was.yy - now.xy * was.yx) / det, (now.xy * was.xx - now.xx * was.xy) / det,
       (now.yx * was.yy - now.yy * was.yx) / det, (now.yy * was.xx - now.yx * was.xy) / det};
-  const Vec2 c = centroid(s.x, s.y, pair.large), c0 = centroid(x_, y_, pair.large);
+  const Vec2 c = centroid(s.position, pair.large), c0 = centroid(then_, pair.large);
   double most = 0.0;
   for (Id v = b.vertex_begin[pair.small]; v < b.vertex_begin[pair.small + 1]; ++v) {
     const Vec2 start = corner_at_start(b, v);
@@ -190,8 +206,7 @@ double RelativeMotion::moved(const Simulation& sim, const Pair& pair) const {
 RelativeMotion::Deviation RelativeMotion::deviation_beside(const Simulation& sim, Id block,
                                                            Vec2 p) const {
   const BlockSet& b = sim.scene->blocks;
-  const BlockModes modes = b.modes(block);
-  if (modes.count == 0) return {};
+  if (!b.bends(block)) return {};
   const Id first = b.vertex_begin[block], last = b.vertex_begin[block + 1];
   double nearest = std::numeric_limits<double>::infinity(), part = 0.0;
   Id edge = first;
@@ -204,20 +219,46 @@ RelativeMotion::Deviation RelativeMotion::deviation_beside(const Simulation& sim
     edge = e;
     part = xi;
   }
-  const auto between = [&](const ModeVectors& bend) {
-    return (1.0 - part) * modes.at(bend, edge - first) +
-           part * modes.at(bend, b.next[edge] - first);
+  const auto beside = [&](const BodyVectors& u) {
+    return (1.0 - part) * deviation_at(b, u, edge) + part * deviation_at(b, u, b.next[edge]);
   };
-  return {between(bend_), between(sim.motion.state.bend)};
+  return {beside(then_), beside(sim.motion.state.position)};
 }
 
 Vec2 RelativeMotion::corner_at_start(const BlockSet& b, Id v) const {
-  return corner_at(b, x_, y_, bend_, v);
+  return corner_at(b, then_, v);
 }
 
 Vec2 RelativeMotion::corner_now(const Simulation& sim, Id v) const {
   const State& s = sim.motion.state;
-  return corner_at(sim.scene->blocks, s.x, s.y, s.bend, v);
+  return corner_at(sim.scene->blocks, s.position, v);
+}
+
+std::vector<FlowingPart> RelativeMotion::flowing(const Simulation& sim,
+                                                 const std::vector<std::uint8_t>& left_out) const {
+  constexpr int fewest = 20;  // nodes
+  const BlockSet& b = sim.scene->blocks;
+  std::vector<FlowingPart> parts;
+  for (Id i = 0; i < b.size(); ++i) {
+    if (!b.is_meshed(i) || !is_free(b, sim.motion.state, i) || !counts_in_verdicts(sim, i) ||
+        (!left_out.empty() && left_out[i] != 0))
+      continue;
+    const double strain = strain_at_yield(sim, i);
+    if (strain == 0.0) continue;
+    const std::vector<double> moved = shape_change(b, then_, sim.motion.state.position, i);
+    const double most = *std::max_element(moved.begin(), moved.end());
+    int nodes = 0;
+    double share = 0.0;
+    for (std::size_t j = 0; j < moved.size(); ++j) {
+      if (2.0 * moved[j] < most) continue;
+      ++nodes;
+      share += b.meshes.share[b.meshes.begin[i] + j];
+    }
+    if (nodes < fewest) continue;
+    const double area = share * b.area[i], part = most / std::sqrt(area);
+    parts.push_back({i, area, part, part / strain});
+  }
+  return parts;
 }
 
 bool RelativeMotion::supports_have_moved(const Simulation& sim) const {

@@ -23,6 +23,15 @@ struct MovedSet {
   double part = 0.0;       ///< that distance over the size of the largest of them
 };
 
+/// A part of a meshed block that has changed its place in the block.
+struct FlowingPart {
+  Id block = 0;
+  double area = 0.0;     ///< m2, of the mesh nodes that have moved at least half as far as the
+                         ///< farthest
+  double part = 0.0;     ///< distance of the farthest over sqrt(area)
+  double strains = 0.0;  ///< `part` over (s1 - s3)/(2 G) of the zones that shear
+};
+
 /// Whether block i counts in verdicts: a sliver that the cut could not merge, and whose inertia is
 /// raised, does not, since its motion is not that of rock.
 bool counts_in_verdicts(const Simulation& sim, std::size_t i);
@@ -46,6 +55,12 @@ class RelativeMotion {
   /// sets within each other the larger. `left_out`: [nb] 1: the block does not count; may be empty.
   std::vector<MovedSet> sets(const Simulation& sim, double least,
                              const std::vector<std::uint8_t>& left_out = {}) const;
+
+  /// Of each meshed block that counts and in which zones shear, what has moved in it as the shape
+  /// of the block has changed (blocks/shape_change.hpp). A part of a few nodes is left out: a mesh
+  /// cannot tell how it would move.
+  std::vector<FlowingPart> flowing(const Simulation& sim,
+                                   const std::vector<std::uint8_t>& left_out = {}) const;
 
   /// Whether a boundary has been displaced since the start.
   bool supports_have_moved(const Simulation& sim) const;
@@ -76,8 +91,7 @@ class RelativeMotion {
   Vec2 corner_at_start(const BlockSet& blocks, Id v) const;
   Vec2 corner_now(const Simulation& sim, Id v) const;
 
-  Nodes x_, y_;                      ///< [nodes][nb] m, at the start
-  ModeVectors bend_;                 ///< [modes] m, then
+  BodyVectors then_;                 ///< positions at the start, m
   Vec2 ground_;                      ///< m, displacement of the ground then
   std::vector<Vec2> shift_;          ///< [boundaries] m, that of each boundary then
   std::vector<Id> small_, large_;    ///< [pairs]
@@ -86,10 +100,7 @@ class RelativeMotion {
 
 template <class Archive>
 void RelativeMotion::list(Archive& a, const std::string& of) {
-  a(of + "moved.x", x_);
-  a(of + "moved.y", y_);
-  a(of + "moved.bend_x", bend_.x);
-  a(of + "moved.bend_y", bend_.y);
+  list_vectors(a, of + "moved.position", then_);
   a(of + "moved.ground_x", ground_.x);
   a(of + "moved.ground_y", ground_.y);
   list_points(a, of + "moved.shift", shift_);

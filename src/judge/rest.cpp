@@ -22,6 +22,11 @@ std::uint64_t window_of(const Simulation& sim) {
                                                : least);
 }
 
+/// A mesh is at rest where no node will move further than rest_part/zone_parts of its zones: an
+/// opening has some ten of them along its radius. A node is taken to move on for so many windows
+/// at most.
+constexpr double zone_parts = 0.1, most_windows = 100.0;
+
 double size_of(const Simulation& sim, std::size_t i) {
   return std::sqrt(sim.scene->blocks.area[i]);
 }
@@ -56,6 +61,16 @@ NormalSums normal_sums(const Simulation& sim, const std::vector<std::uint8_t>& o
   return sums;
 }
 
+/// What the sum of unbalanced forces on mesh nodes may be by rounding, N.
+double rounding_of_zones(const Simulation& sim) {
+  constexpr double part = 1e-12;
+  double sum = 0.0;
+  for (const std::array<Vec2, 3>& on_corners : sim.motion.zones.force) {
+    for (const Vec2 force : on_corners) sum += norm(force);
+  }
+  return part * sum;
+}
+
 }  // namespace
 
 double rest_time(double size, double acceleration) {
@@ -82,26 +97,53 @@ double acceleration_on(const Simulation& sim, const LoadsNow& acting, std::size_
 bool forces_are_rounding(const Simulation& sim) {
   const std::size_t nb = sim.scene->blocks.size();
   const NormalSums sums = normal_sums(sim, std::vector<std::uint8_t>(nb, 1));
+  const double of_zones = rounding_of_zones(sim);
   for (std::size_t i = 0; i < nb; ++i) {
-    if (is_free(sim.scene->blocks, sim.motion.state, i) && force_on(sim, i, sums.rounding[i]) > 0.0)
+    const BlockSet& b = sim.scene->blocks;
+    if (!is_free(b, sim.motion.state, i)) continue;
+    if (force_on(sim, i, sums.rounding[i]) > 0.0) return false;
+    if (b.is_meshed(i) &&
+        unbalanced_forces(sim.motion.masses, b, sim.motion.forces, i).sum > of_zones)
       return false;
   }
   return true;
 }
 
 void SlowingDown::begin(const Simulation& sim) {
-  const std::size_t nb = sim.scene->blocks.size();
+  const BlockSet& b = sim.scene->blocks;
   *this = {};
-  for (auto* values : {&from_x_, &from_y_, &moved_x_, &moved_y_}) values->assign(nb, 0.0);
-  to_come_.assign(nb, std::numeric_limits<double>::infinity());
+  for (auto* values : {&from_x_, &from_y_, &moved_x_, &moved_y_})
+    values->assign(b.size() + b.meshes.nodes(), 0.0);
+  to_come_.assign(b.size(), std::numeric_limits<double>::infinity());
   begin_window(sim);
 }
 
-bool SlowingDown::fits(std::size_t blocks) const {
-  const auto of_blocks = [blocks](const std::vector<double>* v) { return v->size() == blocks; };
-  const auto all = {&from_x_, &from_y_, &moved_x_, &moved_y_, &to_come_};
-  return std::all_of(all.begin(), all.end(), of_blocks);
+bool SlowingDown::fits(const BlockSet& b) const {
+  const std::size_t bodies = b.size() + b.meshes.nodes();
+  const auto of_bodies = [bodies](const std::vector<double>* v) { return v->size() == bodies; };
+  const auto all = {&from_x_, &from_y_, &moved_x_, &moved_y_};
+  return std::all_of(all.begin(), all.end(), of_bodies) && to_come_.size() == b.size();
 }
+
+namespace {
+
+/// Calls body(q, i, size, at) for each centroid and mesh node: its number, its block, its size (m;
+/// of a mesh node the length of a zone) and its place.
+template <class Body>
+void for_each_body(const Simulation& sim, Body body) {
+  const BlockSet& b = sim.scene->blocks;
+  const BodyVectors& x = sim.motion.state.position;
+  for (std::size_t i = 0; i < b.size(); ++i) {
+    if (!b.is_meshed(i)) {
+      body(i, i, size_of(sim, i), centroid(x, i));
+      continue;
+    }
+    for (std::size_t j = b.meshes.begin[i]; j < b.meshes.begin[i + 1]; ++j)
+      body(b.size() + j, i, std::sqrt(b.meshes.share[j] * b.area[i]), mesh_node_at(b, x, i, j));
+  }
+}
+
+}  // namespace
 
 void SlowingDown::begin_window(const Simulation& sim) {
   const double frequency = sim.relaxation.estimate.frequency;
@@ -110,11 +152,10 @@ void SlowingDown::begin_window(const Simulation& sim) {
   const double time = static_cast<double>(length_) * sim.motion.state.step;
   pull_before_ = pull_;
   pull_ = (frequency > 0.0 ? frequency : 1.0 / time) / time;
-  for (std::size_t i = 0; i < from_x_.size(); ++i) {
-    const Vec2 at = centroid(sim.motion.state.x, sim.motion.state.y, i);
-    from_x_[i] = at.x;
-    from_y_[i] = at.y;
-  }
+  for_each_body(sim, [&](std::size_t q, std::size_t, double, Vec2 at) {
+    from_x_[q] = at.x;
+    from_y_[q] = at.y;
+  });
 }
 
 /// A motion that decays towards equilibrium decreases by the same ratio q from window to
@@ -122,30 +163,26 @@ void SlowingDown::begin_window(const Simulation& sim) {
 void SlowingDown::look(const Simulation& sim) {
   if (sim.motion.state.steps < began_ + length_) return;
   const double like_before = pull_before_ > 0.0 ? pull_ / pull_before_ : 1.0;
-  for (std::size_t i = 0; i < from_x_.size(); ++i) {
-    const Vec2 now = centroid(sim.motion.state.x, sim.motion.state.y, i) -
-                     Vec2{from_x_[i], from_y_[i]},
-               was{moved_x_[i], moved_y_[i]};
+  constexpr double unknown = std::numeric_limits<double>::infinity();
+  std::fill(to_come_.begin(), to_come_.end(), 0.0);
+  for_each_body(sim, [&](std::size_t q, std::size_t i, double size, Vec2 at) {
+    const Vec2 now = at - Vec2{from_x_[q], from_y_[q]}, was{moved_x_[q], moved_y_[q]};
     const double ratio = dot(was, was) > 0.0 ? like_before * dot(now, was) / dot(was, was) : 1.0;
-    to_come_[i] = ratio <= 0.0  ? 0.0
-                  : ratio < 1.0 ? norm(now) * ratio / (1.0 - ratio)
-                                : std::numeric_limits<double>::infinity();
-    moved_x_[i] = now.x;
-    moved_y_[i] = now.y;
-  }
+    const double more = ratio <= 0.0 ? 0.0 : ratio < 1.0 ? ratio / (1.0 - ratio) : unknown;
+    if (q < to_come_.size()) {
+      to_come_[q] = more > 0.0 && more < unknown ? norm(now) * more : more;
+    } else {
+      // Of many nodes some move by rounding alone, without a trend.
+      const double parts = std::min(more, most_windows) * size_of(sim, i) / (zone_parts * size);
+      to_come_[i] = std::max(to_come_[i], parts * norm(now));
+    }
+    moved_x_[q] = now.x;
+    moved_y_[q] = now.y;
+  });
   begin_window(sim);
 }
 
 namespace {
-
-/// Speed of the corners of block i beside that of its nodes, m/s: the root of its mean square by
-/// their masses, since the shapes of the modes are orthonormal.
-double bending_speed(const BlockSet& b, const State& s, std::size_t i) {
-  const BlockModes modes = b.modes(i);
-  if (modes.count == 0) return 0.0;
-  return std::sqrt(mode_product(modes, s.bend_rate, s.bend_rate) /
-                   static_cast<double>(modes.corners));
-}
 
 /// As blocks_at_rest(), under the resultant `force` (N) and pressed by `pressed` (N).
 bool is_at_rest(const Simulation& sim, const LoadsNow& acting, const SlowingDown* slowing,
@@ -157,12 +194,13 @@ bool is_at_rest(const Simulation& sim, const LoadsNow& acting, const SlowingDown
   const double weight = std::max(pressed, b.mass[i] * (own > 0.0 ? own : usual_acceleration));
   const bool stiff = sim.stepper->remaining_travel(sim, i, force) <= most;
   if (slowing == nullptr) return stiff;
-  if (stiff &&
-      (slowing->is_still(i) || (slowing->to_come(i) <= most && force <= balanced_part * weight)))
+  if (stiff && ((slowing->is_still(i) && !b.is_meshed(i)) ||
+                (slowing->to_come(i) <= most && force <= balanced_part * weight)))
     return true;
-  const double speed = (norm(centroid(s.vx, s.vy, i)) + bending_speed(b, s, i)) *
+  const double speed = (norm(centroid(s.velocity, i)) + mean_deviation(b, s.velocity, i)) *
                        std::sqrt(inertia_of(sim.motion.masses, i) / b.mass[i]);
   const double time = rest_time(size_of(sim, i), own);
+  if (b.is_meshed(i)) return false;
   return speed * time + 0.5 * force / b.mass[i] * time * time <= most;
 }
 

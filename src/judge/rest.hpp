@@ -29,8 +29,8 @@ double acceleration_on(const Simulation& sim, const LoadsNow& acting, std::size_
 /// on the model.
 bool forces_are_rounding(const Simulation& sim);
 
-/// Extrapolates the motion of blocks from one time window to the next, each about half a period of
-/// the motion long.
+/// Extrapolates the motion of blocks, and of the nodes of their meshes, from one time window to the
+/// next, each about half a period of the motion long.
 class SlowingDown {
  public:
   /// Begins anew, without a trend.
@@ -38,14 +38,15 @@ class SlowingDown {
   /// Call every few steps.
   void look(const Simulation& sim);
   /// Distance that block i will still move if it slows down as from the last but one window to the
-  /// last, m; infinite where it does not, or where that is not known yet.
+  /// last, m; infinite where it does not, or where that is not known yet. Of a mesh: of the node
+  /// that has furthest to go compared with its zones, by this part of the block's size.
   double to_come(std::size_t i) const { return to_come_[i]; }
   /// Whether the coordinates of block i have not changed at all in the last window: what moves it
   /// is less than they can tell, as where a sliver has a mass many times its own.
   bool is_still(std::size_t i) const {
     return pull_before_ > 0.0 && moved_x_[i] == 0.0 && moved_y_[i] == 0.0;
   }
-  bool fits(std::size_t blocks) const;
+  bool fits(const BlockSet& blocks) const;
   template <class Archive>
   void list(Archive& a, const std::string& of);
 
@@ -55,9 +56,10 @@ class SlowingDown {
   double pull_ = 0.0, pull_before_ = 0.0;  ///< 1/s2: the displacement in a window times this
                                            ///< measures the acceleration that drives a block which
                                            ///< only mass-proportional damping resists
-  std::vector<double> from_x_, from_y_;    ///< [nb] m, centroids when the window began
-  std::vector<double> moved_x_, moved_y_;  ///< [nb] m, displacements in the last window
-  std::vector<double> to_come_;            ///< [nb] m
+  /// Of the centroids, then of the mesh nodes, [nb + mesh nodes] m: places when the window began,
+  /// displacements in the last window.
+  std::vector<double> from_x_, from_y_, moved_x_, moved_y_;
+  std::vector<double> to_come_;  ///< [nb] m
 };
 
 template <class Archive>

@@ -118,12 +118,13 @@ void Simulation::set_velocity(std::size_t block, Point velocity, double omega) {
   }
   check_number("set_velocity", "velocity",
                std::abs(velocity.x) + std::abs(velocity.y) + std::abs(omega), 0.0);
-  edda::Nodes vx = sim.motion.state.vx, vy = sim.motion.state.vy;
-  const edda::Nodes &x = sim.motion.state.x, &y = sim.motion.state.y;
-  store(rigid_velocities(vectors_of(x, y, block), centroid(x, y, block), {velocity.x, velocity.y},
-                         omega),
-        vx, vy, block);
-  impl_->change_velocities(vx, vy);
+  const BlockSet& blocks = sim.scene->blocks;
+  const State& state = sim.motion.state;
+  BodyVectors velocities = state.velocity;
+  store(rigid_velocities(vector_of(blocks, state.position, block), centroid(state.position, block),
+                         {velocity.x, velocity.y}, omega),
+        blocks, velocities, block);
+  impl_->change_velocities(velocities);
   if (begun) impl_->end_change();
 }
 

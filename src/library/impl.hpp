@@ -55,7 +55,7 @@ struct Simulation::Impl {
   void go(std::uint64_t to_step, double to_time);
   void finish();
   /// Sets velocities; before the first step those with which the run begins.
-  void change_velocities(const edda::Nodes& vx, const edda::Nodes& vy);
+  void change_velocities(const BodyVectors& velocity);
   /// Ends the caller's access: velocities that it wrote are adopted. Raises an Error where they are
   /// not finite, and restores those from before.
   void take_back();

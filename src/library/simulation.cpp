@@ -101,7 +101,7 @@ Simulation::Impl::Impl(const Model& given, Options&& wanted)
   driver.emplace(prepared, run_options);
   const Faults faults = take_up_folder(*driver, run_options);
   if (!faults.empty()) raise(faults);
-  velocities_ = sim().motion.state.vx[0].data();
+  velocities_ = sim().motion.state.velocity.x[0].data();
   if (options.resume || options.from_stage) enter();
 }
 
@@ -228,38 +228,39 @@ void Simulation::Impl::warn(const std::string& text) {
 }
 
 void Simulation::Impl::hand_over() {
-  if (sim().motion.state.vx[0].data() != velocities_) exchange_velocity_arrays(sim());
+  if (sim().motion.state.velocity.x[0].data() != velocities_) exchange_velocity_arrays(sim());
   if (!lent_) return;
-  lent_vx_ = sim().motion.state.vx;
-  lent_vy_ = sim().motion.state.vy;
+  lent_vx_ = sim().motion.state.velocity.x;
+  lent_vy_ = sim().motion.state.velocity.y;
 }
 
 void Simulation::Impl::take_back() {
   State& state = sim().motion.state;
-  if (!lent_ || (same(state.vx, lent_vx_) && same(state.vy, lent_vy_))) return;
-  const edda::Nodes vx = state.vx, vy = state.vy;
-  state.vx = lent_vx_;
-  state.vy = lent_vy_;
+  if (!lent_ || (same(state.velocity.x, lent_vx_) && same(state.velocity.y, lent_vy_))) return;
+  const BodyVectors written = state.velocity;
+  state.velocity.x = lent_vx_;
+  state.velocity.y = lent_vy_;
   instant_.reset();
   if (finished) {
     raise("node_vx", "velocities were written, but the run is over",
           "make a new Simulation; those of the end are there again");
   }
   for (std::size_t i = 0; i < sim().scene->blocks.size(); ++i) {
-    if (!is_free(sim().scene->blocks, state, i) || is_finite(vx, vy, i)) continue;
+    if (!is_free(sim().scene->blocks, state, i) || is_finite(sim().scene->blocks, written, i))
+      continue;
     raise("node_vx", "the velocity written for block " + std::to_string(i) + " is no number",
           "write finite ones; those of before are there again");
   }
-  change_velocities(vx, vy);
+  change_velocities(written);
 }
 
-void Simulation::Impl::change_velocities(const edda::Nodes& vx, const edda::Nodes& vy) {
+void Simulation::Impl::change_velocities(const BodyVectors& velocity) {
   const double work = sim().accounts.external_work;
-  edda::change_velocities(sim(), vx, vy);
+  edda::change_velocities(sim(), velocity);
   if (!begun) sim().accounts.external_work = work;  // the run begins with them
   instant_.reset();
-  lent_vx_ = sim().motion.state.vx;
-  lent_vy_ = sim().motion.state.vy;
+  lent_vx_ = sim().motion.state.velocity.x;
+  lent_vy_ = sim().motion.state.velocity.y;
 }
 
 void Simulation::Impl::lend_velocities() {

@@ -158,21 +158,21 @@ Point Simulation::origin() const {
 }
 
 Nodes Simulation::node_x() const {
-  return views_of<Nodes>(impl_->sim().motion.state.x);
+  return views_of<Nodes>(impl_->sim().motion.state.position.x);
 }
 
 Nodes Simulation::node_y() const {
-  return views_of<Nodes>(impl_->sim().motion.state.y);
+  return views_of<Nodes>(impl_->sim().motion.state.position.y);
 }
 
 MutableNodes Simulation::node_vx() {
   impl_->lend_velocities();
-  return views_of<MutableNodes>(impl_->sim().motion.state.vx);
+  return views_of<MutableNodes>(impl_->sim().motion.state.velocity.x);
 }
 
 MutableNodes Simulation::node_vy() {
   impl_->lend_velocities();
-  return views_of<MutableNodes>(impl_->sim().motion.state.vy);
+  return views_of<MutableNodes>(impl_->sim().motion.state.velocity.y);
 }
 
 std::string Simulation::name(std::size_t block) const {
@@ -210,7 +210,7 @@ void Simulation::vertices(std::span<double> out) const {
   const State& s = impl_->sim().motion.state;
   check_size("vertices", out.size(), 2 * b.vertex_count());
   for (std::size_t v = 0; v < b.vertex_count(); ++v) {
-    const Vec2 p = corner_at(b, s.x, s.y, s.bend, v) + b.origin;
+    const Vec2 p = corner_at(b, s.position, v) + b.origin;
     out[2 * v] = p.x;
     out[2 * v + 1] = p.y;
   }

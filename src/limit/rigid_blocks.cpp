@@ -222,7 +222,7 @@ void make_bodies(RigidBlocks& rigid, const Simulation& sim, std::vector<RigidSup
     Vec2 sum;
     double mass = 0.0, area = 0.0;
     for (const Id i : group[first]) {
-      sum += b.mass[i] * centroid(state.x, state.y, i);
+      sum += b.mass[i] * centroid(state.position, i);
       mass += b.mass[i];
       area += b.area[i];
     }
@@ -340,8 +340,8 @@ RigidForces loads_with(const RigidBlocks& rigid, const Simulation& sim,
     for (const Id i : rigid.blocks[r]) {
       BlockForces on{b, i};
       add_loads(on, now, sim.motion.pose.x, sim.motion.pose.y);
-      const NodeVectors x = vectors_of(sim.motion.state.x, sim.motion.state.y, i);
-      const NodeVectors& f = on.nodes;
+      const NodeVectors x = vectors_of(sim.motion.state.position, i);
+      const NodeVectors& f = on.sum.nodes;
       all[r].force += resultant(f);
       for (std::size_t k = 0; k < nodes_per_block; ++k)
         all[r].moment += cross(x[k] - rigid.centroid[r], f[k]);

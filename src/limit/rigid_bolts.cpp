@@ -25,8 +25,8 @@ void add_grouted(RigidBlocks& rigid, const Simulation& sim, Id first, Id last) {
   for (Id k = first; k < last; ++k) {
     if (bolts.bonds.stiffness[k] > 0.0) grout.strength += bolts.bonds.strength[k];
     if (k + 1 == last || bolts.crossing[k] == 0) continue;
-    const Vec2 t = bar_frame(bolts, sim.motion.state, k).t;
-    const Vec2 place = node_place(bolts, sim.motion.state, k);
+    const Vec2 t = bar_frame(bolts, sim.scene->blocks, sim.motion.state, k).t;
+    const Vec2 place = node_place(bolts, sim.scene->blocks, sim.motion.state, k);
     const double yield = strength_now(sim, bolts.bars, k);
     rigid.ties.push_back({bolts.host[k], bolts.host[k + 1], place, place, t, -yield, yield});
     grout.after = rigid.ties.size() - 1;
@@ -43,6 +43,8 @@ void add_grouted(RigidBlocks& rigid, const Simulation& sim, Id first, Id last) {
 
 void add_bolts(RigidBlocks& rigid, const Simulation& sim, BoltForces forces) {
   const Bolts& bolts = sim.attached.bolts;
+  const BlockSet& blocks = sim.scene->blocks;
+  const State& state = sim.motion.state;
   for (std::size_t row = 0; row < bolts.rows.size(); ++row) {
     const Id first = bolts.begin[row], last = bolts.begin[row + 1];
     if (bolts.rows[row].grouted) {
@@ -52,9 +54,9 @@ void add_bolts(RigidBlocks& rigid, const Simulation& sim, BoltForces forces) {
       const double now = std::min(bolts.bars.force[first], most);
       const bool as_now = forces == BoltForces::as_now;
       rigid.ties.push_back(
-          {bolts.host[first], bolts.host[first + 1], node_place(bolts, sim.motion.state, first),
-           node_place(bolts, sim.motion.state, first + 1),
-           bar_frame(bolts, sim.motion.state, first).t, as_now ? now : 0.0, as_now ? now : most});
+          {bolts.host[first], bolts.host[first + 1], node_place(bolts, blocks, state, first),
+           node_place(bolts, blocks, state, first + 1), bar_frame(bolts, blocks, state, first).t,
+           as_now ? now : 0.0, as_now ? now : most});
     }
   }
 }

@@ -37,6 +37,45 @@ struct RockStrength {
   double tension = 0.0;  ///< Pa, tensile
 };
 
+/// Shear and tensile strength of a joint.
+struct Strength {
+  double friction_angle = 0.0;    ///< degrees
+  double cohesion = 0.0;          ///< Pa
+  double tensile_strength = 0.0;  ///< Pa
+};
+
+/// Strength of a rock mass after Mohr and Coulomb (friction_angle and cohesion) or Hoek and Brown
+/// (ucs, and gsi with mi or m with s), with a tension cut-off.
+struct RockMass {
+  std::optional<double> friction_angle, dilation_angle;  ///< degrees; dilation empty: 0
+  std::optional<double> cohesion;                        ///< Pa
+  std::optional<double> tensile_strength;  ///< Pa; empty: 0, or s ucs/m of Hoek and Brown
+  std::optional<double> ucs;               ///< Pa, of the intact rock
+  std::optional<double> gsi, mi, disturbance;
+  std::optional<double> m, s, a;  ///< of the rock mass, in place of gsi and mi; a empty: 0.5
+};
+
+/// Where rock yields, in zones.
+struct Yield {
+  RockMass peak;
+  std::optional<RockMass> residual;     ///< what is left out is as at the peak
+  std::optional<double> slip_distance;  ///< m, of a band of shear, from the peak to the residual
+  /// The residual strength with what it has from the peak.
+  RockMass after() const;
+};
+
+/// Planes of weakness of one direction throughout a material (foliation, ubiquitous joints).
+struct FoliationInputs {
+  double angle = 0.0;  ///< degrees, of their trace from +x
+  // Elasticity across the planes; all empty: isotropic.
+  std::optional<double> young, shear_modulus;  ///< Pa
+  std::optional<double> poisson;
+  // Their strength; friction_angle empty: as the rock's.
+  std::optional<double> friction_angle, dilation_angle;  ///< degrees; dilation empty: 0
+  std::optional<double> cohesion, tensile_strength;      ///< Pa; empty: 0
+  bool is_elastic() const { return young || shear_modulus || poisson; }
+};
+
 struct Material {
   std::string name;
   double density = 0.0;  ///< kg/m3
@@ -44,16 +83,12 @@ struct Material {
   double poisson = 0.0;
   Where where;
   std::optional<RockStrength> strength{};
+  std::optional<Yield> yield{};
+  std::optional<FoliationInputs> foliation{};
+  std::optional<double> zone_size{};  ///< m; empty: that of [zones]
   BlockDeformation deformation = BlockDeformation::automatic;
   double damping =
       0.5;  ///< strain damping, as a fraction of critical in the lowest mode of a block
-};
-
-/// Shear and tensile strength of a joint.
-struct Strength {
-  double friction_angle = 0.0;    ///< degrees
-  double cohesion = 0.0;          ///< Pa
-  double tensile_strength = 0.0;  ///< Pa
 };
 
 /// Restitution of an impact (theory, section 9.7): a fraction of the velocity, or, for a rocking
@@ -265,6 +300,15 @@ struct Convergence {
   Where where;
 };
 
+/// [zones]: the mesh of meshed blocks.
+struct ZoneInputs {
+  std::optional<double> size;    ///< m, of the edges of zones; at openings, where there are any;
+                                 ///< empty: "auto"
+  std::optional<double> growth;  ///< m per metre of distance from the openings; empty: 0 with a
+                                 ///< size, else 0.15
+  Where where;
+};
+
 struct Model {
   std::string title;
   std::string file;          ///< path as given on the command line
@@ -291,6 +335,7 @@ struct Model {
   std::vector<BrickWall> walls;
   std::vector<Arch> arches;
   Quality quality;
+  std::optional<ZoneInputs> zones;
   std::vector<ContactPair> pairs;
   std::optional<InitialStress> initial_stress;
   std::vector<Boundary> boundaries;

@@ -14,9 +14,10 @@
 namespace edda {
 
 enum class Method { edda, dda };
-/// How a block deforms: its corners deviate from the uniform strain, or do not. automatic, of a
-/// material: as the model says; of the model: corners.
-enum class BlockDeformation { automatic, corners, uniform };
+/// How a block deforms: its corners deviate from the uniform strain, or do not, or it is meshed.
+/// automatic, of a material: zones if it yields, or else as the model says; of the model: zones if
+/// it has [zones], or else corners.
+enum class BlockDeformation { automatic, corners, uniform, zones };
 enum class MassKind { matched, covering, consistent };
 enum class Switching { exact, plain };
 enum class StageEnd { time, equilibrium, collapse };

@@ -85,7 +85,8 @@ std::string bolts_rows(const Simulation& sim) {
     const BoltData& row = b.rows[r];
     const std::size_t first = b.begin[r], last = b.begin[r + 1];
     for (std::size_t k = first; k < last; ++k) {
-      const Vec2 place = node_place(b, sim.motion.state, k) + sim.scene->blocks.origin;
+      const Vec2 place =
+          node_place(b, sim.scene->blocks, sim.motion.state, k) + sim.scene->blocks.origin;
       const double axial = axial_force(b, row, k, first, last);
       const double bond = b.bonded[k] > 0.0 ? b.bonds.force[k] / b.bonded[k] : 0.0;
       // Bars that end in excavated rock have been cut with it.

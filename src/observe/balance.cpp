@@ -15,17 +15,21 @@
 namespace edda {
 
 double resultant_on(const Simulation& sim, std::size_t i) {
-  return nodes_per_block * norm(centroid(sim.motion.forces.x, sim.motion.forces.y, i));
+  return nodes_per_block * norm(centroid(sim.motion.forces, i));
 }
 
 namespace {
+
+Unbalanced unbalanced_on(const Simulation& sim, std::size_t i) {
+  return unbalanced_forces(sim.motion.masses, sim.scene->blocks, sim.motion.forces, i);
+}
 
 /// Whether block i moves or is about to: by more than rounding, whatever may act on it.
 bool is_moved(const Simulation& sim, std::size_t i) {
   constexpr double part = 1e-9;
   const BlockSet& b = sim.scene->blocks;
-  const double speed = norm(centroid(sim.motion.state.vx, sim.motion.state.vy, i));
-  return resultant_on(sim, i) > part * usual_acceleration * b.mass[i] ||
+  const double speed = norm(centroid(sim.motion.state.velocity, i));
+  return unbalanced_on(sim, i).sum > part * usual_acceleration * b.mass[i] ||
          speed > part * std::sqrt(usual_acceleration * std::sqrt(b.area[i]));
 }
 
@@ -35,7 +39,7 @@ bool is_moved(const Simulation& sim, std::size_t i) {
 bool has_fallen(const Simulation& sim, std::size_t i) {
   if (sim.motion.damping.adaptive == 0.0) return true;
   constexpr double part = 0.01;
-  const Vec2 v = centroid(sim.motion.state.vx, sim.motion.state.vy, i);
+  const Vec2 v = centroid(sim.motion.state.velocity, i);
   // From rest, under this resultant.
   return 0.5 * inertia_of(sim.motion.masses, i) * dot(v, v) >
          part * std::sqrt(sim.scene->blocks.area[i]) * resultant_on(sim, i);
@@ -64,6 +68,7 @@ Balance balance_of(const Simulation& sim) {
   Balance balance;
   const std::vector<std::uint8_t> falls = falling_blocks(sim);
   double sum = 0.0;
+  std::size_t bodies = 0;
   std::vector<Id> resting;
   std::vector<double> all;
   for (std::size_t i = 0; i < sim.scene->blocks.size(); ++i) {
@@ -77,8 +82,10 @@ Balance balance_of(const Simulation& sim) {
       continue;
     }
     resting.push_back(static_cast<Id>(i));
-    const double force = resultant_on(sim, i);
-    sum += force;
+    const Unbalanced on = unbalanced_on(sim, i);
+    const double force = on.sum / static_cast<double>(on.count);
+    sum += on.sum;
+    bodies += on.count;
     all.push_back(force);
     if (balance.block == no_id || force > balance.largest) {
       balance.largest = force;
@@ -97,7 +104,7 @@ Balance balance_of(const Simulation& sim) {
   const double sum_of_most = std::accumulate(all.begin(), most, 0.0);
   balance.mean_95 =
       scale > 0.0 ? sum_of_most / static_cast<double>(most - all.begin()) / scale : 1.0;
-  balance.mean = scale > 0.0 ? sum / static_cast<double>(resting.size()) / scale : 1.0;
+  balance.mean = scale > 0.0 ? sum / static_cast<double>(bodies) / scale : 1.0;
   balance.largest = scale > 0.0 ? balance.largest / scale : 1.0;
   return balance;
 }
@@ -107,8 +114,7 @@ std::string still_moving(const Simulation& sim, const Balance& balance) {
   const std::vector<std::uint8_t> touches = touching(sim);
   for (std::size_t i = 0; i < sim.scene->blocks.size(); ++i) {
     if (!is_free(sim.scene->blocks, sim.motion.state, i) || !touches[i]) continue;
-    speeds.emplace_back(norm(centroid(sim.motion.state.vx, sim.motion.state.vy, i)),
-                        static_cast<Id>(i));
+    speeds.emplace_back(norm(centroid(sim.motion.state.velocity, i)), static_cast<Id>(i));
   }
   constexpr std::size_t named = 3;
   const std::size_t count = std::min(named, speeds.size());

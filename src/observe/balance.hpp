@@ -16,11 +16,12 @@ struct Simulation;
 /// since they fall whatever the others do, unless nothing moves them; nor do loose blocks
 /// (Relaxation::loose).
 struct Balance {
-  double mean = 0.0;     ///< mean resultant of the blocks, over the mean contact normal force (the
-                         ///< mean weight where no contact carries load)
-  double mean_95 = 0.0;  ///< the same mean without the 5 % of blocks furthest from equilibrium
-  double largest = 0.0;  ///< the same for the block furthest from equilibrium
-  Id block = no_id;      ///< that block
+  double mean = 0.0;  ///< mean resultant of the blocks and mesh nodes, over the mean contact normal
+                      ///< force (the mean weight where no contact carries load)
+  double mean_95 = 0.0;      ///< the same mean without the 5 % of blocks furthest from equilibrium
+  double largest = 0.0;      ///< the same for the block furthest from equilibrium, the mean of its
+                             ///< mesh
+  Id block = no_id;          ///< that block
   std::size_t resting = 0;   ///< blocks that count
   std::size_t detached = 0;  ///< free blocks that fall: without contact, and not at rest
   std::size_t loose = 0;     ///< blocks that slide or fall away for good (Relaxation::loose)

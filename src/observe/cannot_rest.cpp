@@ -84,7 +84,7 @@ bool some_block_moves(const Simulation& sim) {
   const LoadsNow now = loads_at(sim.scene->model, sim.attached.loads, 0.0);
   for (Id i = 0; i < b.size(); ++i) {
     if (!is_free(b, sim.motion.state, i)) continue;
-    if (vectors_of(sim.motion.state.vx, sim.motion.state.vy, i) != NodeVectors{}) return true;
+    if (vectors_of(sim.motion.state.velocity, i) != NodeVectors{}) return true;
     if (s.held[i]) continue;
     const Vec2 load = b.mass[i] * sim.scene->model.gravity + load_on(b, now, sim.motion.pose, i);
     if (load == Vec2{} || s.forces[i].empty()) continue;  // what touches nothing falls first

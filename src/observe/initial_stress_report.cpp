@@ -281,7 +281,7 @@ void warn_of_initial_stress(const Simulation& sim, std::vector<std::string>& war
         "cannot "
         "carry it; begin with a stage until equilibrium",
         balance.unbalanced, balance.within, block_label(sim.scene->blocks, balance.block),
-        place_label(centroid(sim.motion.state.x, sim.motion.state.y, balance.block) +
+        place_label(centroid(sim.motion.state.position, balance.block) +
                     sim.scene->blocks.origin)));
   }
 }

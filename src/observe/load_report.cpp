@@ -91,7 +91,7 @@ std::vector<std::string> load_report(const Simulation& sim) {
     std::size_t faces = 0, points = 0;
     for (const PointLoad& p : sim.attached.loads.points) {
       if (static_cast<std::size_t>(p.load) != q) continue;
-      on = block_label(b, p.block);
+      on = block_label(b, p.at.block);
       ++points;
     }
     for (const EdgeLoad& e : sim.attached.loads.edges) {

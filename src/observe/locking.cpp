@@ -98,7 +98,7 @@ LockedOpening around(const Simulation& sim, std::size_t row) {
     held += holds_beside(f, b.thickness, wall_stress(b, i), k) ? l : 0.0;
     area += l * 0.5 * (b.area[i] + b.area[j]);
     o.stiffness += l * ratio.across;
-    const auto bends_itself = [&](Id block) { return b.bending.modes_of(block) > 0; };
+    const auto bends_itself = [&](Id block) { return b.bends(block); };
     const auto locks = [&](Id block) {
       return corners_of(b, block) > 3 && !bends_itself(block) ? b.area[block] : 0.0;
     };
@@ -203,8 +203,8 @@ LockedRow locked_row(const Simulation& sim) {
   const std::vector<Row> rows = rows_of(sim);
   for (Id i = 0; i < b.size(); ++i) {
     const Row& row = rows[i];
-    if (!is_free(b, sim.motion.state, i) || b.bending.modes_of(i) > 0 || !row.alone ||
-        row.joints != 2 || row.other[0] == row.other[1])
+    if (!is_free(b, sim.motion.state, i) || b.bends(i) || !row.alone || row.joints != 2 ||
+        row.other[0] == row.other[1])
       continue;
     const Vec2 centre{b.centroid_x[i], b.centroid_y[i]}, to_first = row.middle[0] - centre,
                                                          to_second = row.middle[1] - centre;

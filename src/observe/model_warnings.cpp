@@ -347,8 +347,7 @@ std::string governed_by(Simulation& sim) {
   }
   const StepBound& bound = sim.control.bound;
   if (bound.block == no_id) return "nothing: no block is free to move";
-  const Vec2 place =
-      centroid(sim.motion.state.x, sim.motion.state.y, bound.block) + sim.scene->blocks.origin;
+  const Vec2 place = centroid(sim.motion.state.position, bound.block) + sim.scene->blocks.origin;
   std::string text = fmt::format("{} at {}: {:.0f} % contacts, {:.0f} % its own elasticity",
                                  block_label(sim.scene->blocks, bound.block), place_label(place),
                                  100.0 * bound.contact_part, 100.0 * bound.elastic_part);

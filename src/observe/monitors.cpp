@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "blocks/locate.hpp"
-#include "blocks/mode_weights.hpp"
 #include "step/labels.hpp"
 
 namespace edda {
@@ -28,7 +27,7 @@ MonitorPoint place(const Simulation& sim, const std::string& name, Vec2 point, c
 }  // namespace
 
 MonitorPoint point_of_block(std::string name, const BlockSet& b, std::size_t block, Vec2 point) {
-  return {std::move(name), block, weights_at(b, block, point), mode_weights(b, block, point)};
+  return {block_point(b, block, point), std::move(name)};
 }
 
 Result<std::vector<MonitorPoint>> place_monitors(const Simulation& sim) {
@@ -90,26 +89,21 @@ std::vector<std::string> border_points(const Simulation& sim) {
 }
 
 double convergence(const BlockSet& blocks, const State& s, const ConvergenceLine& line) {
-  const auto length = [&](const Nodes& x, const Nodes& y, const ModeVectors& bend) {
-    const auto place = [&](const MonitorPoint& m) {
-      return weighted(m.weight, x, y, m.block) + weighted_modes(blocks, m.block, m.modes, bend);
-    };
-    return norm(place(line.ends[1]) - place(line.ends[0]));
+  const auto length = [&](const BodyVectors& u) {
+    return norm(at_point(blocks, u, line.ends[1]) - at_point(blocks, u, line.ends[0]));
   };
-  return length(s.from_x, s.from_y, s.from_bend) - length(s.x, s.y, s.bend);
+  return length(s.reference) - length(s.position);
 }
 
 Vec2 displacement_of(const BlockSet& b, const State& s, const MonitorPoint& m) {
-  return displacement_of(s, m.block, m.weight) + weighted_modes(b, m.block, m.modes, s.bend) -
-         weighted_modes(b, m.block, m.modes, s.from_bend);
+  return at_point(vector_of(b, s.position, m.block) - vector_of(b, s.reference, m.block), m);
 }
 
 MonitorReading read_monitor(const Simulation& sim, const Instant& at, const MonitorPoint& m) {
   MonitorReading r;
   const BlockSet& b = sim.scene->blocks;
   r.displacement = displacement_of(b, at.state, m);
-  r.velocity = weighted(m.weight, at.state.vx, at.state.vy, m.block) +
-               weighted_modes(b, m.block, m.modes, at.state.bend_rate);
+  r.velocity = at_point(b, at.state.velocity, m);
   r.stress = block_stress(sim, at.state, m.block);
   return r;
 }

@@ -6,15 +6,13 @@
 #include <vector>
 
 #include "base/fault.hpp"
+#include "blocks/block_point.hpp"
 #include "observe/observe.hpp"
 
 namespace edda {
 
-struct MonitorPoint {
+struct MonitorPoint : BlockPoint {
   std::string name;
-  std::size_t block = 0;
-  NodeWeights weight{};         ///< area coordinates in the block
-  std::vector<double> modes{};  ///< how it follows the modes of the block (mode_weights.hpp)
 };
 
 /// The point of a block that was at `point` (local coordinates) at the start.

@@ -12,7 +12,7 @@ namespace {
 double corner_speed(const BlockSet& b, const State& s, std::size_t i) {
   double speed = 0.0;
   for (Id v = b.vertex_begin[i]; v < b.vertex_begin[i + 1]; ++v) {
-    speed = std::max(speed, norm(corner_at(b, s.vx, s.vy, s.bend_rate, v)));
+    speed = std::max(speed, norm(corner_at(b, s.velocity, v)));
   }
   return speed;
 }
@@ -28,8 +28,7 @@ std::size_t slowed_down_in_fall(const Simulation& sim) {
   std::size_t count = 0;
   for (std::size_t i = 0; i < sim.scene->blocks.size(); ++i) {
     if (!is_free(sim.scene->blocks, sim.motion.state, i) || touches[i] != 0) continue;
-    const double down =
-        dot(centroid(sim.motion.state.vx, sim.motion.state.vy, i), sim.scene->model.gravity) / g;
+    const double down = dot(centroid(sim.motion.state.velocity, i), sim.scene->model.gravity) / g;
     const double fallen = down * down / (2.0 * (1.0 - sim.motion.damping.local) * g);
     if (down > 0.0 && fallen > begun * sim.scene->blocks.inradius[i]) ++count;
   }

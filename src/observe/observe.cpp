@@ -22,14 +22,14 @@ bool moves(const Simulation& sim, std::size_t i) {
 /// F = I + sum u_k G_k^T: exactly the identity where nothing has moved.
 Deformation deformation_of(const BlockSet& b, const State& s, std::size_t i) {
   const Deformation by =
-      gradient_of(b, vectors_of(s.x, s.y, i) - vectors_of(b.node_x, b.node_y, i), i);
+      gradient_of(b, vectors_of(s.position, i) - vectors_of(b.node_x, b.node_y, i), i);
   return {1.0 + by.xx, by.xy, by.yx, 1.0 + by.yy};
 }
 
 /// Angular velocity: the rate of the polar angle in the affine motion of the block.
 double spin(const BlockSet& b, const State& s, std::size_t i) {
   // theta = atan2(beta, alpha) with alpha = F11 + F22, beta = F21 - F12.
-  const Deformation f = deformation_of(b, s, i), rate = deformation(b, s.vx, s.vy, i);
+  const Deformation f = deformation_of(b, s, i), rate = deformation(b, s.velocity, i);
   const double alpha = f.xx + f.yy, beta = f.yx - f.xy;
   const double alpha_rate = rate.xx + rate.yy, beta_rate = rate.yx - rate.xy;
   return (alpha * beta_rate - beta * alpha_rate) / (alpha * alpha + beta * beta);
@@ -73,11 +73,9 @@ void add_stresses(ContactRecord& r, const Simulation& sim, const FaceRow& row) {
 /// Displacement of vertex v, m.
 Vec2 displacement_of_corner(const BlockSet& b, const State& s, std::size_t v) {
   const std::size_t i = b.vertex_block[v];
-  const BlockModes modes = b.modes(i);
   const Vec2 affine = displacement_of(s, i, weights_of(b.weight, v));
-  if (modes.count == 0) return affine;
-  const std::size_t at = v - b.vertex_begin[i];
-  return affine + modes.at(s.bend, at) - modes.at(s.from_bend, at);
+  if (b.mode_places() == 0) return affine;
+  return affine + deviation_at(b, s.position, v) - deviation_at(b, s.reference, v);
 }
 
 ContactRecord face_record(const Simulation& sim, const FaceRow& row) {
@@ -146,10 +144,10 @@ ContactRecord point_record(const Simulation& sim, std::size_t k) {
 
 void place_points(const BlockSet& b, const State& s, Picture& p) {
   const std::size_t nv = b.vertex_count();
-  for (auto* values : {&p.x, &p.y, &p.ux, &p.uy, &p.vx, &p.vy}) values->resize(nv);
+  for (auto* values : {&p.x, &p.y, &p.ux, &p.uy, &p.vx, &p.vy})
+    values->resize(nv + b.meshes.nodes());
   parallel_for(nv, [&](std::size_t v) {
-    const Vec2 now = corner_at(b, s.x, s.y, s.bend, v),
-               speed = corner_at(b, s.vx, s.vy, s.bend_rate, v);
+    const Vec2 now = corner_at(b, s.position, v), speed = corner_at(b, s.velocity, v);
     p.x[v] = now.x + b.origin.x;
     p.y[v] = now.y + b.origin.y;
     const Vec2 u = displacement_of_corner(b, s, v);
@@ -158,6 +156,32 @@ void place_points(const BlockSet& b, const State& s, Picture& p) {
     p.vx[v] = speed.x;
     p.vy[v] = speed.y;
   });
+}
+
+void place_mesh_nodes(const BlockSet& b, const State& s, Picture& p) {
+  for (std::size_t i = 0; b.meshes.any() && i < b.size(); ++i) {
+    for (std::size_t j = b.meshes.begin[i]; j < b.meshes.begin[i + 1]; ++j) {
+      const Vec2 now = mesh_node_at(b, s.position, i, j), speed = mesh_node_at(b, s.velocity, i, j);
+      const Vec2 u = now - mesh_node_at(b, s.reference, i, j);
+      const std::size_t at = b.vertex_count() + j;
+      p.x[at] = now.x + b.origin.x;
+      p.y[at] = now.y + b.origin.y;
+      p.ux[at] = u.x;
+      p.uy[at] = u.y;
+      p.vx[at] = speed.x;
+      p.vy[at] = speed.y;
+    }
+  }
+}
+
+void record_zones(const Simulation& sim, Picture& p) {
+  const Zones& zones = sim.motion.zones;
+  p.zones.reserve(zones.stress.size());
+  for (std::size_t z = 0; z < zones.stress.size(); ++z) {
+    const auto& [xx, yy, zz, xy] = zones.stress[z];
+    p.zones.push_back(
+        {xx, yy, zz, xy, zones.state[z].plastic_shear + zones.state[z].slipped, zones.yielding[z]});
+  }
 }
 
 }  // namespace
@@ -178,6 +202,8 @@ Picture picture_of(const Simulation& sim, const Instant& at) {
       p.contacts.push_back(point_record(sim, k));
   }
   place_points(sim.scene->blocks, at.state, p);
+  place_mesh_nodes(sim.scene->blocks, at.state, p);
+  record_zones(sim, p);
   return p;
 }
 
@@ -191,12 +217,12 @@ BlockRecord block_record(const Simulation& sim, const State& s, std::size_t i) {
     r.material = sim.scene->model.materials[static_cast<std::size_t>(b.material[i])].name;
   }
   r.fixed = b.fixed[i] != 0;
-  r.position = centroid(s.x, s.y, i) + b.origin;
+  r.position = centroid(s.position, i) + b.origin;
   r.displacement = displacement_of(s, i, centroid_weights);
   const Deformation f = deformation_of(b, s, i);
   r.area = b.area[i] * (f.xx * f.yy - f.xy * f.yx);
   r.rotation = polar_angle(b, s, i) + 2.0 * std::numbers::pi * s.turns[i];
-  r.velocity = centroid(s.vx, s.vy, i);
+  r.velocity = centroid(s.velocity, i);
   r.omega = spin(b, s, i);
   const BlockStress stress = block_stress(sim, s, i);
   r.sxx = stress.xx;
@@ -208,11 +234,15 @@ BlockRecord block_record(const Simulation& sim, const State& s, std::size_t i) {
 }
 
 Vec2 displacement_of(const State& s, std::size_t i, const NodeWeights& w) {
-  return weighted(w, vectors_of(s.x, s.y, i) - vectors_of(s.from_x, s.from_y, i));
+  return weighted(w, vectors_of(s.position, i) - vectors_of(s.reference, i));
 }
 
 BlockStress block_stress(const Simulation& sim, const State& s, std::size_t i) {
   const BlockSet& b = sim.scene->blocks;
+  if (b.is_meshed(i)) {
+    const auto [xx, yy, zz, xy] = mean_stress(b, sim.scene->zones, sim.motion.zones, i);
+    return {xx, yy, zz, xy};
+  }
   const Deformation f = deformation_of(b, s, i);
   const Tensor t = cauchy(stress_in(b, i, f), f);
   BlockStress stress{t.xx, t.yy, 0.0, t.xy};
@@ -232,15 +262,17 @@ double force_scale(const Simulation& sim, const std::vector<Id>& blocks) {
 
 double force_scale(const Simulation& sim, const std::vector<Id>& blocks,
                    const NormalForces& contacts) {
+  std::size_t bodies = 0;
   const LoadsNow acting = loads_at(sim.scene->model, sim.attached.loads, sim.motion.state.time);
   double loads = 0.0;
   for (const Id i : blocks) {
+    bodies += std::max<std::size_t>(1, sim.scene->blocks.meshes.nodes_of(i));
     loads += sim.scene->blocks.mass[i] * norm(sim.scene->model.gravity) +
              norm(load_on(sim.scene->blocks, acting, sim.motion.pose, i));
   }
   // Contacts that barely touch, as at the start, carry forces of the order of rounding, which are
   // no reference.
-  const double mean_load = blocks.empty() ? 0.0 : loads / static_cast<double>(blocks.size());
+  const double mean_load = bodies == 0 ? 0.0 : loads / static_cast<double>(bodies);
   const double mean_normal =
       contacts.ends > 0 ? contacts.pressed / static_cast<double>(contacts.ends) : 0.0;
   return mean_normal > 1e-3 * mean_load ? mean_normal : mean_load;
@@ -253,14 +285,17 @@ double unbalanced_ratio(const Simulation& sim, const Instant& at) {
 double unbalanced_ratio(const Simulation& sim, const Instant& at, const NormalForces& contacts) {
   std::vector<Id> free_blocks;
   double force = 0.0;
+  std::size_t bodies = 0;
   for (std::size_t i = 0; i < sim.scene->blocks.size(); ++i) {
     if (!moves(sim, i)) continue;
-    force += norm(nodes_per_block * centroid(at.forces.x, at.forces.y, i));
+    const Unbalanced on = unbalanced_forces(sim.motion.masses, sim.scene->blocks, at.forces, i);
+    force += on.sum;
+    bodies += on.count;
     free_blocks.push_back(static_cast<Id>(i));
   }
   if (force == 0.0) return 0.0;
   const double scale = force_scale(sim, free_blocks, contacts);
-  return scale > 0.0 ? force / static_cast<double>(free_blocks.size()) / scale : 1.0;
+  return scale > 0.0 ? force / static_cast<double>(bodies) / scale : 1.0;
 }
 
 void count_revolutions(Simulation& sim, std::vector<double>& angle) {

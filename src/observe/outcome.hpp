@@ -23,7 +23,7 @@ constexpr std::string_view status_name(Status status) {
 }
 
 /// Wall time, s. search, forces and integrate divide the time of all steps in the proportions
-/// sampled by StageClock.
+/// sampled by StepClock.
 struct WallSeconds {
   double total = 0.0, cut = 0.0, search = 0.0, forces = 0.0, integrate = 0.0, output = 0.0;
   double stepping = 0.0;  ///< all steps together

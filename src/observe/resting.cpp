@@ -40,7 +40,7 @@ std::vector<std::uint8_t> supported_blocks(const Simulation& sim, Vec2 down) {
 }
 
 bool is_sent_off(const Simulation& sim, Id i) {
-  return vectors_of(sim.motion.state.vx, sim.motion.state.vy, i) != NodeVectors{};
+  return vectors_of(sim.motion.state.velocity, i) != NodeVectors{};
 }
 
 /// Extent of blocks: `side` across gravity, `depth` along it, m.

@@ -48,7 +48,7 @@ void warn_of_idle(const std::vector<Item>& items, const std::vector<bool>& used,
   }
 }
 
-/// Bolts hold nothing where their bars begin and end in one block.
+/// Bolts hold nothing where their bars begin and end in one block that is not meshed.
 void warn_of_bolts_in_one_block(const Simulation& sim, std::vector<std::string>& warnings) {
   const Scene& scene = *sim.scene;
   if (!has_bolts(scene.model)) return;
@@ -62,7 +62,8 @@ void warn_of_bolts_in_one_block(const Simulation& sim, std::vector<std::string>&
   std::vector<std::string> idle;
   for (std::size_t q = 0; q < b.rows.size(); ++q) {
     const auto first = b.host.begin() + b.begin[q], last = b.host.begin() + b.begin[q + 1];
-    if (std::all_of(first, last, [&](Id host) { return host == *first; })) {
+    if (std::all_of(first, last, [&](Id host) { return host == *first; }) &&
+        !scene.blocks.is_meshed(*first)) {
       idle.push_back(b.rows[q].name);
     }
   }

@@ -119,11 +119,9 @@ std::vector<WaveRay> from_load(const Simulation& sim, Index row) {
   }
   for (const PointLoad& p : sim.attached.loads.points) {
     if (p.load != row || !(dot(p.force, p.force) > 0.0)) continue;
-    Vec2 at;
-    for (std::size_t k = 0; k < nodes_per_block; ++k) {
-      at += p.weight[k] * Vec2{b.node_x[k][p.block], b.node_y[k][p.block]};
-    }
-    const Vec2 to_centre = Vec2{b.centroid_x[p.block], b.centroid_y[p.block]} - at;
+    const std::size_t i = p.at.block;
+    const Vec2 at = weighted(p.at.nodes, b.node_x, b.node_y, i);
+    const Vec2 to_centre = Vec2{b.centroid_x[i], b.centroid_y[i]} - at;
     const Vec2 along = unit(p.force);
     rays.push_back({at, dot(to_centre, along) < 0.0 ? -1.0 * along : along, along});
   }

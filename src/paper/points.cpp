@@ -223,9 +223,9 @@ void complete_points(PointSet& c, const BlockSet& b, const Pose& pose, const Law
   list_springs(c, b, pose);
 }
 
-void sum_points(NodalForces& on, const BlockSet& b, const PointSet& c, const Pose& pose) {
+void sum_points(BodyVectors& on, const BlockSet& b, const PointSet& c, const Pose& pose) {
   const std::vector<NodeVectors> forces = forces_of(c, b, pose);
-  for (std::size_t i = 0; i < b.size(); ++i) store(forces[i], on.x, on.y, i);
+  for (std::size_t i = 0; i < b.size(); ++i) store(forces[i], on, i);
 }
 
 }  // namespace edda

@@ -58,7 +58,7 @@ void complete_points(PointSet& points, const BlockSet& blocks, const Pose& pose,
                      const LawTable& laws);
 
 /// Sets the forces on the nodes to those of the contacts, N.
-void sum_points(NodalForces& on, const BlockSet& blocks, const PointSet& points, const Pose& pose);
+void sum_points(BodyVectors& on, const BlockSet& blocks, const PointSet& points, const Pose& pose);
 
 /// Position of vertex k relative to its edge.
 struct PointGap {

@@ -22,6 +22,37 @@ void trace(cairo_t* cr, const PlotScene& s, const BlockShape& shape) {
   }
 }
 
+/// Whether the cells of a shape, its zones, have values of their own.
+bool has_zones(const PlotScene& s, const BlockShape& shape) {
+  const std::vector<double>& values = s.shot.field.values;
+  for (std::size_t c = shape.first_cell; c < shape.end_cell; ++c) {
+    if (values[c] != values[shape.first_cell]) return true;
+  }
+  return false;
+}
+
+/// Fills each zone, with a rim: otherwise the paper would show between neighbours.
+void fill_zones(Canvas& canvas, const PlotScene& s, const ColourScale& scale,
+                const BlockShape& shape, double rim) {
+  cairo_t* cr = canvas.cr();
+  const Grid& g = s.grid();
+  cairo_set_line_width(cr, rim);
+  for (std::size_t c = shape.first_cell; c < shape.end_cell; ++c) {
+    for (std::size_t k = g.begin(c); k < static_cast<std::size_t>(g.ends[c]); ++k) {
+      const Vec2 p = s.view.at(s.points[static_cast<std::size_t>(g.corners[k])]);
+      if (k == g.begin(c)) {
+        cairo_move_to(cr, p.x, p.y);
+      } else {
+        cairo_line_to(cr, p.x, p.y);
+      }
+    }
+    cairo_close_path(cr);
+    canvas.colour(scale.of(s.shot.field.values[c]));
+    cairo_fill_preserve(cr);
+    cairo_stroke(cr);
+  }
+}
+
 Box bounds_of(const PlotScene& s, const BlockShape& shape) {
   Box b{{1e300, 1e300}, {-1e300, -1e300}};
   for (const auto& edge : shape.outline) {
@@ -107,6 +138,10 @@ void draw_blocks(Canvas& canvas, const PlotScene& s, const ColourScale& scale, b
   for (const std::size_t i : visible) {
     const BlockShape& shape = s.shapes[i];
     const bool fixed = is_fixed(s.grid(), shape.first_cell);
+    if (coloured && !fixed && has_zones(s, shape)) {
+      fill_zones(canvas, s, scale, shape, 0.25);
+      continue;
+    }
     trace(cr, s, shape);
     canvas.colour(fixed      ? ink::fixed
                   : coloured ? scale.of(field.values[shape.first_cell])

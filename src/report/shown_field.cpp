@@ -71,6 +71,8 @@ constexpr std::array recipes{
            "most compressive stress (tension positive)", "Pa", numbers, false, second},
     Recipe{"overstress", "overstress", "part of the rock's strength used", "", numbers, false,
            first},
+    Recipe{"plastic_strain", "plastic_strain", "plastic strain", "", numbers, false, first},
+    Recipe{"yields", "yields", "whether the rock yields", "", kinds, false, first},
     Recipe{"normal_force", "normal_force", "normal force of contacts", "N", numbers, true, first},
     Recipe{"shear_force", "shear_force", "shear force of contacts", "N", numbers, true, first},
     Recipe{"opening", "opening", "opening of contacts", "m", numbers, true, first},

@@ -27,7 +27,8 @@ struct ShownField {
 };
 
 /// Field by name: id material displacement velocity rotation stress principal_stress, of which
-/// vectors may name a part (displacement.y, stress.xx, principal_stress.minor); contacts:
+/// vectors may name a part (displacement.y, stress.xx, principal_stress.minor), plastic_strain and
+/// yields of zones; contacts:
 /// normal_force shear_force opening slip state normal_stress shear_stress. "none" or "" for plain
 /// blocks. A fault lists the names.
 Result<ShownField> shown_field(const std::string& name, const Grid& blocks, const Grid* contacts);

@@ -100,7 +100,7 @@ constexpr std::array mechanism{
       "Rotation without sign times the distance of the furthest corner from the centroid, over the "
       "displacement of the centroid: about 1 for a block that turns about a corner, 0 for one that "
       "slides."},
-    C{"motion", "text", "Kind of motion: slides, topples, falls or hinges."},
+    C{"motion", "text", "Kind of motion: slides, topples, falls, hinges or yields."},
 };
 
 constexpr std::array mechanism_joints{

@@ -19,8 +19,8 @@ constexpr C contact{"contact", "J", "Energy stored in contacts, boundary springs
 constexpr C gravity{"gravity", "J", "Potential energy of weight, less that at the start."};
 constexpr C friction{
     "friction", "J",
-    "Energy dissipated since the start by sliding, and in bolts by grout that slips "
-    "and steel that yields."};
+    "Energy dissipated since the start by sliding, by rock that yields in zones, and in bolts by "
+    "grout that slips and steel that yields."};
 constexpr C damping{
     "damping", "J",
     "Energy dissipated since the start by all kinds of damping and by boundaries that "

@@ -13,7 +13,22 @@ namespace edda {
 namespace {
 
 void add_cells(const BlockSet& b, Id block, BlockCells& cells) {
-  const auto close = [&] { cells.end.push_back(static_cast<Id>(cells.corner.size())); };
+  const auto close = [&](Id zone = no_id) {
+    cells.end.push_back(static_cast<Id>(cells.corner.size()));
+    cells.zone.push_back(zone);
+  };
+  if (b.is_meshed(block)) {
+    const Meshes& m = b.meshes;
+    const Id first = b.vertex_begin[block], corners = b.vertex_begin[block + 1] - first;
+    for (Id z = m.zone_begin[block]; z < m.zone_begin[block + 1]; ++z) {
+      for (const std::uint32_t j : m.zone[z]) {
+        const Id own = j - m.begin[block];
+        cells.corner.push_back(own < corners ? first + own : static_cast<Id>(b.vertex_count()) + j);
+      }
+      close(z);
+    }
+    return;
+  }
   const auto triangles = b.triangles.find(block);
   if (triangles == b.triangles.end()) {
     for (Id v = b.vertex_begin[block]; v < b.vertex_begin[block + 1]; ++v)
@@ -69,13 +84,24 @@ class Fields {
   RowAt row_at_;
 };
 
+/// The row of a cell in the picture's blocks, and its zone or no_id.
+struct CellRow {
+  std::uint32_t block, zone;
+};
+
+/// What a cell has of its zone, or of its block.
+struct CellStress {
+  double xx, yy, zz, xy;
+};
+
 void add_block_fields(std::vector<FieldSource>& into, const Picture& picture,
-                      std::vector<std::uint32_t> row_of_cell) {
+                      std::vector<CellRow> row_of_cell) {
   using B = BlockRecord;
   const std::size_t n = row_of_cell.size();
-  const auto rows = std::make_shared<const std::vector<std::uint32_t>>(std::move(row_of_cell));
-  Fields f(into, n,
-           [rows, &picture](std::size_t k) -> const B& { return picture.blocks[(*rows)[k]]; });
+  const auto rows = std::make_shared<const std::vector<CellRow>>(std::move(row_of_cell));
+  Fields f(into, n, [rows, &picture](std::size_t k) -> const B& {
+    return picture.blocks[(*rows)[k].block];
+  });
   f.whole("id", [](const B& b) { return b.id; });
   f.whole("material", [](const B& b) { return b.material_index; });
   f.whole("fixed", [](const B& b) { return b.fixed; });
@@ -83,18 +109,31 @@ void add_block_fields(std::vector<FieldSource>& into, const Picture& picture,
   f.vector("velocity", [](const B& b) { return b.velocity; });
   f.number("rotation", [](const B& b) { return b.rotation; });
   f.number("omega", [](const B& b) { return b.omega; });
-  const auto stress = [](const B& b, double* v) {
-    for (const double part : {b.sxx, b.syy, b.szz, b.sxy, 0.0, 0.0}) *v++ = part;
+  Fields own(into, n, [rows, &picture](std::size_t k) {
+    const auto of = [](const auto& r) { return CellStress{r.sxx, r.syy, r.szz, r.sxy}; };
+    const CellRow& row = (*rows)[k];
+    return row.zone == no_id ? of(picture.blocks[row.block]) : of(picture.zones[row.zone]);
+  });
+  const auto stress = [](const CellStress& s, double* v) {
+    for (const double part : {s.xx, s.yy, s.zz, s.xy, 0.0, 0.0}) *v++ = part;
   };
-  f.add("stress", 6, stress, {"XX", "YY", "ZZ", "XY", "YZ", "XZ"});
-  const auto principal = [](const B& b, double* v) {
-    const double mean = 0.5 * (b.sxx + b.syy);
-    const double radius = std::hypot(0.5 * (b.sxx - b.syy), b.sxy);
+  own.add("stress", 6, stress, {"XX", "YY", "ZZ", "XY", "YZ", "XZ"});
+  const auto principal = [](const CellStress& s, double* v) {
+    const double mean = 0.5 * (s.xx + s.yy);
+    const double radius = std::hypot(0.5 * (s.xx - s.yy), s.xy);
     v[0] = mean + radius;
     v[1] = mean - radius;
-    v[2] = b.szz;
+    v[2] = s.zz;
   };
-  f.add("principal_stress", 3, principal, {"major", "minor", "out_of_plane"});
+  own.add("principal_stress", 3, principal, {"major", "minor", "out_of_plane"});
+  if (!picture.zones.empty()) {
+    Fields zone(into, n, [rows, &picture](std::size_t k) {
+      const CellRow& row = (*rows)[k];
+      return row.zone == no_id ? ZoneRecord{} : picture.zones[row.zone];
+    });
+    zone.number("plastic_strain", [](const ZoneRecord& z) { return z.plastic_strain; });
+    zone.whole("yields", [](const ZoneRecord& z) { return z.yields; });
+  }
   f.number("overstress", [](const B& b) { return b.overstress; });
 }
 
@@ -125,7 +164,7 @@ GridSource block_source(const BlockCells& cells, const Picture& picture) {
   g.corners.reserve(cells.corner.size());
   g.ends.reserve(n);
   g.types.reserve(n);
-  std::vector<std::uint32_t> row_of_cell;
+  std::vector<CellRow> row_of_cell;
   row_of_cell.reserve(n);
   for (std::size_t row = 0; row < picture.blocks.size(); ++row) {
     const Id block = picture.blocks[row].id;
@@ -135,8 +174,9 @@ GridSource block_source(const BlockCells& cells, const Picture& picture) {
         g.corners.push_back(cells.corner[k]);
       }
       g.ends.push_back(static_cast<std::int64_t>(g.corners.size()));
-      g.types.push_back(end - first == 1 ? cell_type::polygon : cell_type::triangle);
-      row_of_cell.push_back(static_cast<std::uint32_t>(row));
+      const bool triangle = end - first > 1 || cells.zone[c] != no_id;
+      g.types.push_back(triangle ? cell_type::triangle : cell_type::polygon);
+      row_of_cell.push_back({static_cast<std::uint32_t>(row), cells.zone[c]});
     }
   }
   add_block_fields(source.cell_fields, picture, std::move(row_of_cell));

@@ -16,15 +16,19 @@ namespace edda {
 struct BlockCells {
   std::vector<Id> begin;   ///< [nb + 1] first cell of each block
   std::vector<Id> end;     ///< of each cell in `corner`
-  std::vector<Id> corner;  ///< vertices of all cells, each counter-clockwise
+  std::vector<Id> corner;  ///< points of all cells, each counter-clockwise: vertices, or the number
+                           ///< of these plus a mesh node
+  std::vector<Id> zone;    ///< of each cell, or no_id
 };
 
-/// Convex blocks are one cell; others, and those with holes, are triangles.
+/// Convex blocks are one cell; others, and those with holes, are triangles; meshed ones their
+/// zones.
 BlockCells block_cells(const BlockSet& blocks);
 
 /// Cell fields id material fixed displacement velocity rotation omega stress principal_stress,
 /// point fields displacement velocity. stress: XX YY ZZ XY YZ XZ; principal_stress: the larger and
-/// the smaller in the plane, then the one across it. Pa. The picture must outlive the source.
+/// the smaller in the plane, then the one across it. Pa. With zones also plastic_strain and
+/// yields; their stresses are their own. The picture must outlive the source.
 GridSource block_source(const BlockCells& cells, const Picture& picture);
 /// The same in memory.
 Grid block_grid(const BlockCells& cells, const Picture& picture);

@@ -53,13 +53,22 @@ struct ContactRecord {
   double shear_stress = 0.0;     ///< Pa: the mean over the overlap, signed as shear_force
 };
 
+/// A zone of a meshed block.
+struct ZoneRecord {
+  double sxx = 0.0, syy = 0.0, szz = 0.0, sxy = 0.0;  ///< Pa
+  double plastic_strain = 0.0;  ///< accumulated e1 - e3, and slip on the foliation
+  int yields = 0;  ///< at this time: 1 in shear, 2 in tension, 3 along the foliation; 0: not
+};
+
 /// Everything at one time.
 struct Picture {
   double time = 0.0;                ///< s
   std::vector<BlockRecord> blocks;  ///< alive ones, by id
   std::vector<ContactRecord> contacts;
-  std::vector<double> x, y;            ///< [nv] vertices of all blocks, m
-  std::vector<double> ux, uy, vx, vy;  ///< [nv] their displacement (m) and velocity (m/s)
+  std::vector<ZoneRecord> zones;       ///< of all meshed blocks, in the order of BlockSet::meshes
+  std::vector<double> x, y;            ///< [nv + mesh nodes] vertices of all blocks, then the nodes
+                                       ///< of their meshes, corners too, m
+  std::vector<double> ux, uy, vx, vy;  ///< likewise: displacement (m) and velocity (m/s)
 };
 
 }  // namespace edda

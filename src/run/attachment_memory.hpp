@@ -49,9 +49,15 @@ inline bool fits(const Bolts& b, const Simulation& s) {
     if (b.rows[r].row < 0 || static_cast<std::size_t>(b.rows[r].row) >= known) return false;
     if (b.begin[r] >= b.begin[r + 1]) return false;
   }
-  const bool in_blocks =
-      std::all_of(b.host.begin(), b.host.end(), [&](Id i) { return i < s.scene->blocks.size(); });
-  return in_blocks && fits(b.bonds, nodes) && fits(b.bars, nodes) && fits(b.dowels, nodes);
+  if (b.zone.size() != nodes) return false;
+  const BlockSet& blocks = s.scene->blocks;
+  for (std::size_t k = 0; k < nodes; ++k) {
+    const Id i = b.host[k], z = b.zone[k];
+    if (i >= blocks.size() || blocks.is_meshed(i) != (z != no_id)) return false;
+    const auto& begin = blocks.meshes.zone_begin;
+    if (z != no_id && (z < begin[i] || z >= begin[i + 1])) return false;
+  }
+  return fits(b.bonds, nodes) && fits(b.bars, nodes) && fits(b.dowels, nodes);
 }
 
 template <class Archive>
@@ -65,6 +71,7 @@ void list_bolts(Archive& a, Simulation& s) {
   a("bolts.rows", rows);
   a("bolts.begin", b.begin);
   a("bolts.host", b.host);
+  a("bolts.zone", b.zone);
   a("bolts.weight", b.weight);
   a("bolts.along", b.along);
   a("bolts.distance", b.distance);

@@ -36,7 +36,7 @@ Id most_energetic(const Simulation& sim) {
   for (Id i = 0; i < sim.scene->blocks.size(); ++i) {
     if (!is_free(sim.scene->blocks, sim.motion.state, i)) continue;
     const double energy =
-        kinetic_energy(sim.motion.masses, sim.scene->blocks, sim.motion.state, i) /
+        kinetic_energy(sim.motion.masses, sim.scene->blocks, sim.motion.state.velocity, i) /
         sim.scene->blocks.mass[i];
     if (energy > most) {
       most = energy;
@@ -54,7 +54,7 @@ double reaction_error(const Simulation& sim, const Instant& at, const NormalForc
   const LoadsNow acting = loads_at(sim.scene->model, sim.attached.loads, sim.motion.state.time);
   for (std::size_t i = 0; i < sim.scene->blocks.size(); ++i) {
     if (sim.scene->blocks.fixed[i] || !sim.motion.state.alive[i]) continue;
-    sum += nodes_per_block * centroid(at.forces.x, at.forces.y, i);
+    sum += nodes_per_block * centroid(at.forces, i);
     weight += sim.scene->blocks.mass[i] * norm(sim.scene->model.gravity) +
               norm(load_on(sim.scene->blocks, acting, sim.motion.pose, i));
   }
@@ -311,8 +311,7 @@ bool Driver::energy_is_out_of_bounds() {
   if (!created_much && !runaway) return false;
   Failure failure;
   failure.block = most_energetic(sim_);
-  failure.place =
-      centroid(sim_.motion.state.x, sim_.motion.state.y, failure.block) + sim_.scene->blocks.origin;
+  failure.place = centroid(sim_.motion.state.position, failure.block) + sim_.scene->blocks.origin;
   failure.time = sim_.motion.state.time;
   const std::string how =
       runaway ? fmt::format("the kinetic energy is {:.3g} times the largest energy so far",

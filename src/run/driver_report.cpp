@@ -13,7 +13,9 @@ namespace {
 bool all_finite(const Simulation& sim) {
   const State& s = sim.motion.state;
   for (std::size_t i = 0; i < sim.scene->blocks.size(); ++i) {
-    if (!is_finite(s.x, s.y, i) || !is_finite(s.vx, s.vy, i)) return false;
+    if (!is_finite(sim.scene->blocks, s.position, i) ||
+        !is_finite(sim.scene->blocks, s.velocity, i))
+      return false;
   }
   return true;
 }
@@ -71,7 +73,7 @@ void Driver::write_end() {
 
 void Driver::scale_wall_times() {
   WallSeconds& w = outcome_.wall;
-  const StageSeconds& sampled = sim_.accounts.seconds;
+  const StepSeconds& sampled = sim_.accounts.seconds;
   const double scale = sampled.sum() > 0.0 ? w.stepping / sampled.sum() : 0.0;
   w.search = scale * sampled.search;
   w.forces = scale * sampled.forces;
@@ -108,9 +110,10 @@ void Driver::report(bool last) {
   p.seconds_left = last ? 0.0 : rate_ > 0.0 ? left / rate_ : -1.0;
   for (std::size_t i = 0; i < sim_.scene->blocks.size(); ++i) {
     if (sim_.scene->blocks.fixed[i] || !sim_.motion.state.alive[i]) continue;
-    p.kinetic += kinetic_energy(sim_.motion.masses, sim_.scene->blocks, sim_.motion.state, i);
+    p.kinetic +=
+        kinetic_energy(sim_.motion.masses, sim_.scene->blocks, sim_.motion.state.velocity, i);
     p.largest_velocity =
-        std::max(p.largest_velocity, norm(centroid(sim_.motion.state.vx, sim_.motion.state.vy, i)));
+        std::max(p.largest_velocity, norm(centroid(sim_.motion.state.velocity, i)));
   }
   p.largest_overlap = sim_.accounts.penetration;
   p.at_most = may_end_before();

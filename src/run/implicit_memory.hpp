@@ -57,12 +57,7 @@ inline bool restore(Simulation& s, const std::vector<Id>& column, const std::vec
 template <class Archive>
 void list_implicit(Archive& a, Simulation& s) {
   ImplicitSolver& solver = s.implicit;
-  a("implicit.mean_velocity_x", solver.mean_velocity_x);
-  a("implicit.mean_velocity_y", solver.mean_velocity_y);
-  if (s.scene->blocks.bending.any()) {
-    a("implicit.mean_bend_rate_x", solver.mean_bend_rate.x);
-    a("implicit.mean_bend_rate_y", solver.mean_bend_rate.y);
-  }
+  list_vectors(a, "implicit.mean_velocity", solver.mean_velocity);
   a("implicit.block_of", solver.block_of);
   a("implicit.pattern_of", solver.pattern_of);
   std::vector<double> stiffest = solver.stiffest;
@@ -86,12 +81,7 @@ void list_implicit(Archive& a, Simulation& s) {
   a("solver.per_solve", m.per_solve);
   a("solver.values", m.values);
   if constexpr (Archive::loads) {
-    const std::size_t size = solver.mean_velocity_x[0].empty() ? 0 : s.scene->blocks.size();
-    const std::size_t modes = size == 0 ? 0 : s.scene->blocks.bending.modes();
-    bool good = solver.mean_bend_rate.x.size() == modes && solver.mean_bend_rate.y.size() == modes;
-    for (const auto* nodes : {&solver.mean_velocity_x, &solver.mean_velocity_y}) {
-      for (const auto& values : *nodes) good = good && values.size() == size;
-    }
+    const bool good = is_empty(solver.mean_velocity) || fits(s.scene->blocks, solver.mean_velocity);
     if (!good || stiffest.size() != solver.block_of.size() ||
         !restore(s, column, ends, std::move(m))) {
       a.refuse("implicit does not fit the model");

@@ -105,7 +105,8 @@ void warn_of_lost_points(const PreparedRun& run, std::vector<std::string>& warni
   for (const ConvergenceLine& line : run.convergences) {
     look("an end of convergence", line.name, line.ends[0].block);
     look("an end of convergence", line.name, line.ends[1].block);
-    if (line.ends[0].block == line.ends[1].block) {
+    const std::size_t block = line.ends[0].block;
+    if (block == line.ends[1].block && !run.sim.scene->blocks.is_meshed(block)) {
       warnings.push_back(
           fmt::format("both ends of convergence {} lie in one block: it shows no opening of joints",
                       line.name));

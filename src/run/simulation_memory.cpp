@@ -20,12 +20,9 @@ namespace {
 
 template <class Archive>
 void list_state(Archive& a, Simulation& s) {
-  a("state.x", s.motion.state.x);
-  a("state.y", s.motion.state.y);
-  a("state.vx", s.motion.state.vx);
-  a("state.vy", s.motion.state.vy);
-  a("state.from_x", s.motion.state.from_x);
-  a("state.from_y", s.motion.state.from_y);
+  list_vectors(a, "state.position", s.motion.state.position);
+  list_vectors(a, "state.velocity", s.motion.state.velocity);
+  list_vectors(a, "state.reference", s.motion.state.reference);
   a("damping.mass", s.motion.damping.mass);
   a("damping.local", s.motion.damping.local);
   a("damping.contact", s.motion.damping.contact);
@@ -34,10 +31,8 @@ void list_state(Archive& a, Simulation& s) {
   a("frequency_estimate.of_block", s.relaxation.estimate.of_block);
   a("frequency_estimate.least", s.relaxation.estimate.least);
   a("frequency_estimate.since", s.relaxation.estimate.since);
-  a("frequency_estimate.x", s.relaxation.estimate.x);
-  a("frequency_estimate.y", s.relaxation.estimate.y);
-  a("frequency_estimate.fx", s.relaxation.estimate.fx);
-  a("frequency_estimate.fy", s.relaxation.estimate.fy);
+  list_vectors(a, "frequency_estimate.position", s.relaxation.estimate.position);
+  list_vectors(a, "frequency_estimate.force", s.relaxation.estimate.force);
   a("loose", s.relaxation.loose);
   a("seeks_equilibrium", s.relaxation.seeks_equilibrium);
   a("balanced", s.relaxation.balanced);
@@ -68,26 +63,19 @@ void list_state(Archive& a, Simulation& s) {
   a("pose.x1", s.motion.pose.x1);
   a("pose.y1", s.motion.pose.y1);
   a("damping_work", s.accounts.damping_work.joules);
-  a("forces.x", s.motion.forces.x);
-  a("forces.y", s.motion.forces.y);
-}
-
-/// The modes of blocks that bend, and the forces on them.
-template <class Archive>
-void list_modes(Archive& a, Simulation& s) {
-  const auto list = [&a](const std::string& name, ModeVectors& modes) {
-    a(name + "_x", modes.x);
-    a(name + "_y", modes.y);
-  };
-  list("state.bend", s.motion.state.bend);
-  list("state.bend_rate", s.motion.state.bend_rate);
-  list("state.from_bend", s.motion.state.from_bend);
-  list("locked", s.motion.locked);
-  list("forces.modes", s.motion.forces.modes);
-  list("on_faces_modes", s.motion.on_contacts.modes);
-  list("jump_modes", s.motion.jump.modes);
-  list("frequency_estimate.bend", s.relaxation.estimate.bend);
-  list("frequency_estimate.on_modes", s.relaxation.estimate.on_modes);
+  list_vectors(a, "forces", s.motion.forces);
+  list_vectors(a, "on_contacts", s.motion.on_contacts);
+  list_vectors(a, "jump", s.motion.jump);
+  Zones& zones = s.motion.zones;
+  list_numbers(a, "zones.state", zones.state);
+  list_numbers(a, "zones.force", zones.force);
+  list_numbers(a, "zones.stress", zones.stress);
+  a("zones.yielding", zones.yielding);
+  a("zones.stored", zones.stored);
+  a("zones.stored_between", zones.stored_between);
+  a("zones.dissipated", zones.dissipated);
+  a("locked_x", s.motion.locked.x);
+  a("locked_y", s.motion.locked.y);
 }
 
 template <class Archive>
@@ -176,7 +164,7 @@ void examine_places(Examiner& j, const Simulation& s) {
   }
   const double far = 1e6 * extent;
   auto near = [&](const std::vector<double>& x, const std::vector<double>& y, std::size_t v) {
-    const Vec2 middle = centroid(s.motion.state.x, s.motion.state.y, b.vertex_block[v]);
+    const Vec2 middle = centroid(s.motion.state.position, b.vertex_block[v]);
     const Vec2 p{x[v], y[v]};
     return norm(p) <= far && norm(p - middle) <= 10.0 * b.radius[b.vertex_block[v]];
   };
@@ -198,30 +186,25 @@ void examine_places(Examiner& j, const Simulation& s) {
 
 void examine(Examiner& j, const Simulation& s, const FaceStates& faces) {
   const std::size_t nb = s.scene->blocks.size(), nv = s.scene->blocks.vertex_count();
-  for (const Nodes* nodes :
-       {&s.motion.state.x, &s.motion.state.y, &s.motion.state.vx, &s.motion.state.vy,
-        &s.motion.state.from_x, &s.motion.state.from_y, &s.motion.forces.x, &s.motion.forces.y,
-        &s.motion.on_contacts.x, &s.motion.on_contacts.y}) {
-    for (const auto& values : *nodes) j.sized("state", values, nb);
-  }
-  for (const auto* jump : {&s.motion.jump.x, &s.motion.jump.y}) {
-    for (const auto& values : *jump) {
-      if (!s.motion.jump.x[0].empty() || !values.empty()) j.sized("jump", values, nb);
-    }
-  }
-  const std::size_t modes = s.scene->blocks.bending.modes();
-  for (const ModeVectors* of :
-       {&s.motion.state.bend, &s.motion.state.bend_rate, &s.motion.state.from_bend,
-        &s.motion.forces.modes, &s.motion.on_contacts.modes}) {
-    j.sized("state.bend", of->x, modes);
-    j.sized("state.bend", of->y, modes);
-  }
-  for (const ModeVectors* of : {&s.motion.locked, &s.motion.jump.modes, &s.relaxation.estimate.bend,
-                                &s.relaxation.estimate.on_modes}) {
-    if (of->x.empty() && of->y.empty()) continue;
-    j.sized("modes", of->x, modes);
-    j.sized("modes", of->y, modes);
-  }
+  const BlockSet& b = s.scene->blocks;
+  for (const BodyVectors* of : {&s.motion.state.position, &s.motion.state.velocity,
+                                &s.motion.state.reference, &s.motion.forces, &s.motion.on_contacts})
+    if (!fits(b, *of)) j.refuse("state has another size than the model asks for");
+  if (!is_empty(s.motion.jump) && !fits(b, s.motion.jump)) j.refuse("jump does not fit");
+  const FrequencyEstimate& estimate = s.relaxation.estimate;
+  const bool none_yet = is_empty(estimate.position) && is_empty(estimate.force);
+  if (!none_yet && !(fits(b, estimate.position) && fits(b, estimate.force)))
+    j.refuse("frequency_estimate does not fit");
+  for (const auto* locked : {&s.motion.locked.x, &s.motion.locked.y})
+    if (!s.motion.locked.x.empty() || !locked->empty()) j.sized("locked", *locked, b.mode_places());
+  const Zones& zones = s.motion.zones;
+  const std::size_t many = s.scene->zones.shape.size(), pairs = s.scene->zones.pair.size();
+  j.sized("zones.state", zones.state, many);
+  j.sized("zones.force", zones.force, many);
+  j.sized("zones.stress", zones.stress, many);
+  j.sized("zones.yielding", zones.yielding, many);
+  for (const auto* of : {&zones.stored, &zones.stored_between, &zones.dissipated})
+    j.sized("zones", *of, pairs);
   j.sized("state.alive", s.motion.state.alive, nb);
   j.sized("state.turns", s.motion.state.turns, nb);
   j.sized("damping_work", s.accounts.damping_work.joules, nb);
@@ -252,10 +235,7 @@ void examine(Examiner& j, const Simulation& s, const FaceStates& faces) {
 template <class Archive>
 void list_memory(Archive& a, Simulation& s, FaceStates& faces) {
   list_state(a, s);
-  if (s.scene->blocks.bending.any()) list_modes(a, s);
   list_faces(a, s.motion.contacts, faces);
-  a("on_faces_x", s.motion.on_contacts.x);
-  a("on_faces_y", s.motion.on_contacts.y);
   if (s.stepper == &paper_stepper) list_points(a, s.point_contacts);
   list_counts(a, s);
   list_slow_loading(a, s);
@@ -274,8 +254,6 @@ void list_memory(Archive& a, Simulation& s, FaceStates& faces) {
   a("steps_left", s.control.steps_left);
   if (!is_explicit(s)) list_implicit(a, s);
   a("scaled_step", s.control.scaled_step);
-  a("jump_x", s.motion.jump.x);
-  a("jump_y", s.motion.jump.y);
   if (s.scene->model.solver.mass_scaling > 0.0 || s.control.scaled_step > 0.0 ||
       s.control.sliver_step > 0.0) {
     // The masses themselves, bit for bit, and not only their factors.
@@ -308,6 +286,7 @@ std::string recall(Simulation& sim, const Record& record) {
     return "laws.divided_by is not of these laws";
   }
   sim.motion.laws = divided_laws(sim.scene->model, factors);
+  sim.motion.zones.material = divided_strength(sim.scene->zones, sim.motion.laws.rock_divided_by());
   Examiner j;
   examine(j, sim, faces);
   if (!j.flaw().empty()) return j.flaw();

@@ -8,7 +8,7 @@
 #include "integrate/leapfrog.hpp"
 #include "step/face_switching.hpp"
 #include "step/initial_balance.hpp"
-#include "step/stage_clock.hpp"
+#include "step/step_clock.hpp"
 
 namespace edda {
 
@@ -38,7 +38,7 @@ struct Accounts {
   StepStatistics steps;
   OpenCloseCounts open_close;  ///< iterations of an implicit step count as passes
   std::vector<SetAside> set_aside;
-  StageSeconds seconds;  ///< sampled; only their ratios are meaningful
+  StepSeconds seconds;  ///< sampled; only their ratios are meaningful
 };
 
 }  // namespace edda

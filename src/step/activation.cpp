@@ -73,6 +73,8 @@ void keep(Simulation& sim, const std::vector<WallForce>& more) {
   keep_wall_forces(sim.scene->model, sim.scene->blocks, more, sim.attached.loads);
 }
 
+namespace {
+
 /// Releases these boundaries and returns the static forces that they had on vertices.
 std::vector<WallForce> release_boundaries(Simulation& sim, const std::vector<Index>& rows) {
   const Model& model = sim.scene->model;
@@ -110,6 +112,8 @@ std::vector<WallForce> release_boundaries(Simulation& sim, const std::vector<Ind
   return wall_forces;
 }
 
+}  // namespace
+
 std::optional<Fault> install(Simulation& sim, const std::vector<Index>& which) {
   const Model& model = sim.scene->model;
   const BlockSet& blocks = sim.scene->blocks;
@@ -137,7 +141,7 @@ void switch_over(Simulation& sim, const NamedRows& off, const NamedRows& on) {
   // The rigid velocity of a ground that stops is subtracted: no jump of velocities relative to it.
   lose_velocity(sim, velocity_of_ground_by(sim, off.shakings));
   AsExternalWork work(sim);
-  const NodalForces before_it = off.boundaries.empty() ? NodalForces{} : forces_now(sim);
+  const BodyVectors before_it = off.boundaries.empty() ? BodyVectors{} : forces_now(sim);
   std::vector<WallForce> wall_forces = release_boundaries(sim, off.boundaries);
   ActiveIntervals& intervals = loads.intervals;
   set_all(intervals.boundaries, off.boundaries, on.boundaries, state.time);
@@ -182,7 +186,7 @@ void switch_over(Simulation& sim, const NamedRows& off, const NamedRows& on) {
 
 void glue_joints(Simulation& sim, bool glued) {
   if (glued == sim.motion.contacts.gluing) return;
-  const NodalForces before = forces_now(sim);
+  const BodyVectors before = forces_now(sim);
   change_faces(sim, [&](FaceSet& faces, const FaceStates& states) {
     if (glued) {
       glue_faces(faces, states);

@@ -26,7 +26,7 @@ void change_damping(Simulation& sim, const Damping& now, bool carry_velocities) 
 
 void set_strength_factors(Simulation& sim, const std::vector<double>& factors) {
   if (factors == sim.motion.laws.divided_by) return;
-  const NodalForces before = forces_now(sim);
+  const BodyVectors before = forces_now(sim);
   take_strength_factors(sim, factors);
   note_jump(sim, before);
 }
@@ -38,6 +38,7 @@ void take_strength_factors(Simulation& sim, const std::vector<double>& factors) 
   change_faces(
       sim, [&](FaceSet& faces, const FaceStates& states) { put_in_force(faces, states, divided); });
   laws = std::move(divided);
+  sim.motion.zones.material = divided_strength(sim.scene->zones, laws.rock_divided_by());
   reevaluate_faces(sim);
 }
 
@@ -46,10 +47,7 @@ void set_strength_factor(Simulation& sim, double factor) {
 }
 
 void reset_displacements(Simulation& sim) {
-  State& state = sim.motion.state;
-  state.from_x = state.x;
-  state.from_bend = state.bend;
-  state.from_y = state.y;
+  sim.motion.state.reference = sim.motion.state.position;
 }
 
 }  // namespace edda

@@ -56,17 +56,18 @@ void reset_displacements(Simulation& sim);
 /// Every second step leaves the velocities in other arrays than the step before. This moves their
 /// contents into the arrays of the step before, for views of them that outlive a step.
 void exchange_velocity_arrays(Simulation& sim);
-/// Replaces the velocities of the nodes (finite, m/s); those of blocks that are not free do not
-/// change.
-void change_velocities(Simulation& sim, const Nodes& vx, const Nodes& vy,
-                       const ModeVectors* rate = nullptr);
+/// Replaces the velocities (finite, m/s); those of blocks that are not free do not change.
+void change_velocities(Simulation& sim, const BodyVectors& velocity);
 /// The ground and all free blocks lose the velocity v (m/s), as if the last step had been made
 /// without it: the model is seen from a frame that moves with v. None of its forces changes.
 void lose_velocity(Simulation& sim, Vec2 v);
 
 /// Loads the outer faces with the initial stress, on boundaries too; at creation.
 void load_boundaries_with_initial_stress(Simulation& sim);
-/// Contact forces at the start; with an initial stress, those in equilibrium with it.
-void close_contacts(Simulation& sim, FaceStates& states);
+/// Gives the contacts the forces that are in equilibrium with the initial stress; at creation.
+void load_contacts_with_initial_stress(Simulation& sim, FaceStates& states);
+/// The rock that was in openings from the start on holds their walls, and is to let go from now on
+/// (Loads::remaining). Returns whether there is any, and an initial stress.
+bool hold_walls_of_openings(Simulation& sim);
 
 }  // namespace edda

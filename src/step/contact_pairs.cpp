@@ -9,14 +9,13 @@
 namespace edda {
 
 std::vector<std::pair<Id, Id>> blocks_in_contact(const Simulation& sim, Nearness nearness) {
-  constexpr double near = 1e-3;  // of the smaller block
   const BlockSet& b = sim.scene->blocks;
   const FaceSet& f = sim.motion.contacts;
   std::vector<std::pair<Id, Id>> pairs;
   for (std::size_t k = 0; k < f.size(); ++k) {
     if (is_closed_now(sim, k) || (nearness == Nearness::touching && meets(face_row(sim, k))) ||
         (nearness == Nearness::near &&
-         meets_within(face_row(sim, k), near * smaller_size(f, b, k))))
+         meets_within(face_row(sim, k), drawn_gap * smaller_size(f, b, k))))
       pairs.emplace_back(block_of_edge(b, f, k), block_of_facing(b, f, k));
   }
   const PointSet& p = sim.point_contacts;
@@ -38,6 +37,9 @@ NormalForces normal_forces(const Simulation& sim, const std::vector<double>& of_
   };
   for (const double force : of_faces) add(force, 2);
   for (const double force : sim.point_contacts.normal) add(force, 1);
+  for (const std::array<Vec2, 3>& on_corners : sim.motion.zones.force) {
+    for (const Vec2 force : on_corners) add(norm(force), 1);
+  }
   return all;
 }
 

@@ -24,7 +24,7 @@ void place_all(Simulation& sim) {
   State& state = sim.motion.state;
   Pose& pose = sim.motion.pose;
   parallel_for(blocks.size(), [&](std::size_t i) {
-    if (state.alive[i]) place_vertices(blocks, state.x, state.y, state.bend, i, pose.x, pose.y);
+    if (state.alive[i]) place_vertices(blocks, state.position, i, pose.x, pose.y);
   });
 }
 
@@ -36,16 +36,16 @@ void sum_contact_forces(Simulation& sim) {
   sim.stepper->sum_contacts(sim);
 }
 
-/// Closed by the initial stress where there is one.
+/// Faces at the start: bonds, and the forces of the initial stress where there is one.
 void begin_faces(Simulation& sim) {
   Motion& motion = sim.motion;
   FaceSet& faces = motion.contacts;
   FaceTiles& tiles = motion.tiled.tiles;
   FaceStates states(faces.size());
   bond_faces(faces, states, sim.scene->blocks, motion.pose, motion.laws);
-  if (sim.scene->model.initial_stress) close_contacts(sim, states);
+  if (sim.scene->model.initial_stress) load_contacts_with_initial_stress(sim, states);
   put_faces(sim, states);
-  evaluate_at_rest(sim, 1.0);
+  reevaluate_at_n(sim, 1.0);
   end_at_rest(faces, tiles, sim.scene->blocks, motion.pose);
   for (auto* work : {&faces.friction_work, &faces.transfer}) work->fill(0.0);
   keep_trial(tiles, faces);
@@ -73,24 +73,29 @@ std::optional<Failure> deep_overlap_of_faces(const Simulation& sim) {
 
 void reevaluate_faces(Simulation& sim) {
   if (sim.control.step_before > 0.0) {
-    evaluate_at_rest(sim, sim.control.step_before);
+    reevaluate_at_n(sim, sim.control.step_before);
     sum_contact_forces(sim);
   }
 }
 
-/// How far interpenetrating edges may overlap along each other, m: where two blocks
-/// penetrate each other by a closure d, by d over the sine of a corner beside the next edge, of
-/// corners down to 30 degrees by 2 d.
+namespace {
+
+/// Upper bound of the overlap of edges that lie behind each other, m: blocks that penetrate by d
+/// overlap by d/sin(alpha) along the edges beside a corner alpha, 2 d for 30 degrees and more.
 double overlap_of_next_edges(const Simulation& sim) {
   constexpr double per_sine = 2.0;
   return per_sine * sim.accounts.penetration;
 }
 
-/// What blocks penetrate each other by may grow before the next list.
+}  // namespace
+
+/// With room for penetration that grows before the next list.
 Reach next_reach(const Simulation& sim) {
   const double reach = std::max(sim.scene->base_reach, 20.0 * sim.control.last_displacement);
   return {reach, std::max(0.25 * reach, 1.5 * overlap_of_next_edges(sim))};
 }
+
+namespace {
 
 bool list_is_due(Simulation& sim) {
   FaceSet& contacts = sim.motion.contacts;
@@ -102,13 +107,15 @@ bool list_is_due(Simulation& sim) {
   if (!deeper && contacts.travel + ahead <= contacts.reach) return false;
   // The sum of displacements is an upper bound; the positions decide.
   contacts.travel = largest_approach(control.neighbours, sim.scene->blocks, sim.motion.state,
-                                     sim.motion.pose, standing_of(contacts));
+                                     sim.motion.pose, origin_of(contacts));
   if (!(contacts.travel <= 200.0 * (contacts.reach + sim.scene->displacement_limit))) {
     control.last_displacement = std::numeric_limits<double>::infinity();  // inspect() ends the run
     return false;
   }
   return deeper || contacts.travel + sim.stepper->margin * ahead > contacts.reach;
 }
+
+}  // namespace
 
 void search_if_due(Simulation& sim) {
   if (!list_is_due(sim)) return;

@@ -10,6 +10,7 @@
 #include "cutting/build_polygons.hpp"
 #include "cutting/cut_domain.hpp"
 #include "cutting/t_nodes.hpp"
+#include "cutting/zone_size.hpp"
 #include "step/changes.hpp"
 #include "step/contact_search.hpp"
 #include "step/restitution.hpp"
@@ -50,6 +51,21 @@ double t_node_tolerance(const Model& model, const PolygonSet& polygons) {
   return std::max(model.domain ? snap_of(model) : 0.0, rounding * size);
 }
 
+/// T-nodes, then the corners of zones on the edges of meshed blocks.
+void divide_edges(const Model& model, PolygonSet& polygons) {
+  add_t_nodes(polygons, t_node_tolerance(model, polygons), [&](std::size_t i) {
+    const BlockPolygon& block = polygons.blocks[i];
+    if (may_be_meshed(model, block)) return TNodes{no_id, false};
+    return may_bend(model, block) ? TNodes{most_corners_that_bend, true} : TNodes{};
+  });
+  const ZoneSizes sizes(model, polygons);
+  for (BlockPolygon& block : polygons.blocks) {
+    if (!may_be_meshed(model, block)) continue;
+    const MeshSize size = sizes.of(block);
+    divide_edges(block, [&](Vec2 from, Vec2 to) { return divisions(from, to, size); });
+  }
+}
+
 Result<Scene> build_scene(Model given, BlockOrder order, const Stepper& stepper) {
   Scene scene;
   scene.model = std::move(given);
@@ -61,8 +77,7 @@ Result<Scene> build_scene(Model given, BlockOrder order, const Stepper& stepper)
     scene.polygons.reversed = true;
   }
   const Solver& solver = scene.model.solver;
-  add_t_nodes(scene.polygons, t_node_tolerance(scene.model, scene.polygons), most_corners_that_bend,
-              [&](std::size_t i) { return may_bend(scene.model, scene.polygons.blocks[i]); });
+  divide_edges(scene.model, scene.polygons);
   BlockSet& blocks = scene.blocks;
   blocks = build_blocks(scene.model, scene.polygons);
   if (std::vector<Fault> faults = fit_restitution(scene.model, blocks); !faults.empty()) {
@@ -72,6 +87,7 @@ Result<Scene> build_scene(Model given, BlockOrder order, const Stepper& stepper)
     set_initial_stress(blocks, scene.model, StressField(scene.model, blocks.origin));
   }
   scene.displacement_limit = largest_displacement(blocks, solver.max_displacement_ratio);
+  scene.zones = make_zones(scene.model, blocks);
   scene.base_reach =
       std::max(0.04 * median_edge(blocks), stepper.least_reach * scene.displacement_limit);
   scene.smallest_half_width = *std::min_element(blocks.inradius.begin(), blocks.inradius.end());
@@ -113,7 +129,9 @@ void place_blocks(Simulation& sim) {
   Motion& motion = sim.motion;
   const std::size_t nb = blocks.size(), nv = blocks.vertex_count();
   motion.state = initial_state(blocks, sim.scene->polygons);
-  motion.forces = motion.on_contacts = no_forces(blocks);
+  motion.forces = motion.on_contacts = zero_vectors(blocks);
+  motion.zones = zones_at_start(sim.scene->zones, sim.scene->model, blocks, motion.state,
+                                motion.laws.rock_divided_by());
   motion.on_dashpots.assign(sim.attached.dashpots.points.size(), Vec2{});
   sim.accounts.damping_work.joules.assign(nb, 0.0);
   Pose& pose = motion.pose;

@@ -21,14 +21,14 @@ std::string cause(const StepInUse& step, const char* otherwise) {
 
 }  // namespace
 
-Failure lost_block(const BlockSet& b, const State& s, const Pose& pose, const NodalForces& forces,
+Failure lost_block(const BlockSet& b, const State& s, const Pose& pose, const BodyVectors& forces,
                    const StepInUse& step) {
   Failure f;
   f.time = s.time;
   f.message = "the motion has grown without bound: " +
               cause(step, "loads or stiffnesses are out of proportion: check units");
   for (std::size_t i = 0; i < b.size(); ++i) {
-    if (is_finite(forces.x, forces.y, i) && is_finite(s.vx, s.vy, i)) continue;
+    if (s.alive[i] == 0 || (is_finite(b, forces, i) && is_finite(b, s.velocity, i))) continue;
     f.block = static_cast<Id>(i);
     f.place = at(pose.x1, pose.y1, b.vertex_begin[i]) + b.origin;
     f.message = block_label(b, i) + " has lost its shape: " +
@@ -53,8 +53,8 @@ Failure overlap_failure(Id one, Id other, double depth, Vec2 place, const BlockS
   f.of_block = b.fixed[i] == 0 && step.step <= step.critical;
   f.place = place + b.origin;
   f.message = fmt::format(
-      "{} is {:.3g} m inside {}, more than half the size of the smaller: {}", block_label(b, i),
-      depth, block_label(b, j),
+      "{} is {:.3g} m inside {}, more than the half-width of the narrower one: {}",
+      block_label(b, i), depth, block_label(b, j),
       cause(step,
             "contacts are too soft for these loads or velocities: raise contact.normal_stiffness "
             "(or the joint's kn), or lower solver.max_displacement_ratio"));

@@ -31,10 +31,10 @@ struct StepInUse {
 /// The block whose values are not finite or whose shape is lost, after a step without a finite
 /// displacement.
 Failure lost_block(const BlockSet& blocks, const State& state, const Pose& pose,
-                   const NodalForces& forces, const StepInUse& step);
+                   const BodyVectors& forces, const StepInUse& step);
 
 /// The failure of two blocks that overlap by `depth` (m) at `place` (local coordinates), more than
-/// the half-width of the smaller.
+/// the half-width of the narrower.
 Failure overlap_failure(Id one, Id other, double depth, Vec2 place, const BlockSet& blocks,
                         const State& state, const StepInUse& step);
 

@@ -8,30 +8,15 @@
 #include "base/parallel.hpp"
 #include "contacts/face_energy.hpp"
 #include "forces/bending_forces.hpp"
-#include "forces/elastic.hpp"
 #include "step/simulation.hpp"
 
 namespace edda {
 namespace {
 
-/// Strain energy between steps n - 1 and n; x_{n-1} = x_n - h v_{n-1/2}.
-double block_strain_energy(const BlockSet& b, const State& s, double h, std::size_t i) {
-  const Deformation now = deformation(b, s.x, s.y, i);
-  const Deformation rate = deformation(b, s.vx, s.vy, i);
-  const Deformation before{now.xx - h * rate.xx, now.xy - h * rate.xy, now.yx - h * rate.yx,
-                           now.yy - h * rate.yy};
-  const double strain = strain_energy(corotated_strain(before, rotation(before)),
-                                      corotated_strain(now, rotation(now)), b.volume[i],
-                                      b.lame_lambda[i], b.lame_mu[i]);
-  if (b.initial_xx.empty()) return strain;
-  return strain + initial_energy(before, now, initial_stress(b, i), b.volume[i], b.lame_lambda[i],
-                                 b.lame_mu[i]);
-}
-
 double block_gravity_energy(const BlockSet& b, const State& s, double h, Vec2 gravity,
                             std::size_t i) {
-  const Vec2 half_back = 0.5 * h * centroid(s.vx, s.vy, i);
-  const Vec2 moved = centroid(s.x, s.y, i) - half_back - Vec2{b.centroid_x[i], b.centroid_y[i]};
+  const Vec2 half_back = 0.5 * h * centroid(s.velocity, i);
+  const Vec2 moved = centroid(s.position, i) - half_back - Vec2{b.centroid_x[i], b.centroid_y[i]};
   return -b.mass[i] * dot(gravity, moved);
 }
 
@@ -78,11 +63,9 @@ EnergyBalance energy_balance(const Simulation& sim, const FaceMeasures& faces) {
   const auto in_faces = [&](std::size_t k) { return faces.energy[k]; };
   const std::vector<double>& damped = accounts.damping_work.joules;
   EnergyBalance l;
-  l.kinetic = over_free([&](std::size_t i) { return kinetic_energy(sim.motion.masses, b, s, i); });
-  l.strain = over_free([&](std::size_t i) {
-    return block_strain_energy(b, s, behind, i) +
-           bending_energy(b, s, sim.motion.locked, behind, i);
-  });
+  l.kinetic =
+      over_free([&](std::size_t i) { return kinetic_energy(sim.motion.masses, b, s.velocity, i); });
+  l.strain = over_free([&](std::size_t i) { return stored_energy(b, s, rock_of(sim), behind, i); });
   l.gravity = over_free([&](std::size_t i) {
     return block_gravity_energy(b, s, behind, sim.scene->model.gravity, i);
   });
@@ -97,7 +80,7 @@ EnergyBalance energy_balance(const Simulation& sim, const FaceMeasures& faces) {
   l.step_change = -accounts.step_change_energy;
   l.external = accounts.external_work;
   l.contact += bolt_energy(bolts) + points.energy;
-  l.friction += bolts.slipped + points.friction;
+  l.friction += bolts.slipped + points.friction + dissipated_in_zones(sim.motion.zones);
   l.fracture += bolts.fractured;
   return l;
 }

@@ -53,7 +53,7 @@ bool set_aside(Simulation& sim, const Failure& failure) {
   if (out > most * all) return false;
   const AsExternalWork work(sim);
   state.alive[failure.block] = 0;
-  store({}, state.vx, state.vy, failure.block);
+  set_zero(blocks, state.velocity, failure.block);
   search_without_removed(sim);
   sim.accounts.set_aside.push_back({failure.block, failure.time, failure.place});
   return true;
@@ -75,7 +75,7 @@ void excavate(Simulation& sim, const std::vector<Index>& openings) {
   for (std::size_t i = 0; i < blocks.size(); ++i) {
     if (goes[i] == 0) continue;
     state.alive[i] = 0;
-    store({}, state.vx, state.vy, i);
+    set_zero(blocks, state.velocity, i);
   }
   for (const Index o : going)
     sim.attached.loads.remaining[static_cast<std::size_t>(o)] = {0.0, 1.0, state.time};

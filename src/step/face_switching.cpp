@@ -49,7 +49,7 @@ class Correction {
       : c_(faces),
         t_(tiles),
         in_step_(in_step),
-        b_(taken.blocks),
+        b_(taken.leap.blocks),
         pose_(taken.pose),
         scratch_(scratch),
         taken_(taken) {
@@ -135,7 +135,7 @@ class Correction {
       const Face next = face_at(c_, b_, pose_.x, pose_.y, f.face);
       const double stored_next =
           stored_between(f.risen, f.at, next, face_points(c_, pose_.x, pose_.y, f.face), false);
-      c_.transfer[f.face] += f.stored + f.risen_by - stored_next - f.alpha * work(f);
+      c_.transfer[f.face] += f.stored + f.dilation_work - stored_next - f.alpha * work(f);
     };
     parallel_for(scratch_.set.size(), book_face, cost_of_a_face / 4);
     std::vector<Id> faces;
@@ -247,15 +247,16 @@ class Correction {
     f.at = face_points(c_, pose_.x1, pose_.y1, k);
     const bool dilates = !c_.risen.empty() && c_.risen[k] != 0.0;
     const double risen = dilates ? c_.risen[k] : 0.0;
-    f.risen_by = dilates ? c_.risen_by[k] : 0.0;
+    f.dilation_work = dilates ? c_.dilation_work[k] : 0.0;
     f.element = f.risen = face_at(c_, b_, pose_.x1, pose_.y1, k, risen);
     if (dilates) f.risen = face_at(c_, b_, pose_.x1, pose_.y1, k);
     const Face before = face_at(c_, b_, pose_.x2, pose_.y2, k, risen);
     f.was_closed = before.energy > 0.0;
     f.stored = stored_between(before, f.then, f.element, f.at, false);
     const OnBlocks on = on_blocks(c_, f.element.force, k);
-    f.own_work = taken_.h_new * (mobility(taken_, b_.vertex_block[c_.edge[k]], on.first) +
-                                 mobility(taken_, b_.vertex_block[c_.facing[k]], on.second));
+    f.own_work =
+        taken_.leap.h_new * (mobility(taken_.leap, b_.vertex_block[c_.edge[k]], on.first) +
+                             mobility(taken_.leap, b_.vertex_block[c_.facing[k]], on.second));
     f.alpha = 1.0;
     f.force = f.element.force;
     const CornerForces shear = end_forces(f.at, f.element, {}, {row.shear_a, row.shear_b});
@@ -276,7 +277,7 @@ class Correction {
     const bool closes = next.energy > 0.0;
     f.stored_next = stored_between(f.risen, f.at, next, next_at, false);
     const double whole = work(f);
-    const double left = f.alpha * whole + f.stored_next - f.stored - f.risen_by;
+    const double left = f.alpha * whole + f.stored_next - f.stored - f.dilation_work;
     const double slope = whole + 0.5 * (f.alpha - (closes ? 1.0 : 0.0)) * f.own_work;
     double alpha = f.alpha + nearest_root(left, slope, f.own_work);
     constexpr double most = 1.5;  // of a face that is closed before and after the step

@@ -10,7 +10,7 @@
 #include "blocks/state.hpp"
 #include "contacts/face_energy.hpp"
 #include "contacts/tiled_faces.hpp"
-#include "step/push_block.hpp"
+#include "integrate/push_block.hpp"
 
 namespace edda {
 
@@ -27,15 +27,15 @@ struct OpenCloseCounts {
 /// A face of which an end opened or closed in the last two steps.
 struct SwitchingFace {
   Id face;
-  FaceFields before;    ///< its state at n, with the present alpha
-  FacePoints then, at;  ///< corners at n - 1 and n
-  Face element;         ///< element at n
-  Face risen;           ///< the same with the locked closure of n + 1, which dilation has raised
-  double risen_by;      ///< J, work of that dilation
-  CornerForces force;   ///< its force at n with the present alpha, shear included
-  double stored;        ///< U_{n-1/2}, J
-  double stored_next;   ///< U_{n+1/2}, J
-  bool was_closed;      ///< at n - 1
+  FaceFields before;     ///< its state at n, with the present alpha
+  FacePoints then, at;   ///< corners at n - 1 and n
+  Face element;          ///< element at n
+  Face risen;            ///< the same with the locked closure of n + 1, which dilation has raised
+  double dilation_work;  ///< J, work of that dilation
+  CornerForces force;    ///< its force at n with the present alpha, shear included
+  double stored;         ///< U_{n-1/2}, J
+  double stored_next;    ///< U_{n+1/2}, J
+  bool was_closed;       ///< at n - 1
   double own_work;  ///< work of the whole normal force on the displacement it makes in the step, J
   double alpha;     ///< activation factor: part of the normal force that acts
   std::uint64_t corrected_at;  ///< SwitchingGroup::corrections when it was last corrected
@@ -48,7 +48,7 @@ struct SwitchingGroup {
   std::vector<Id> pushed;         ///< blocks that have moved
   double pushed_by = 0.0;         ///< m: no vertex was pushed farther
   Vec2 on_fixed;                  ///< N: change of the forces on fixed blocks
-  std::uint64_t corrections = 0;  ///< of all steps, and those of this group
+  std::uint64_t corrections = 0;  ///< running count over all steps; orders them
   std::uint64_t passes = 0;
   bool converged = false;
 

@@ -46,6 +46,7 @@ std::vector<Id> faces_that_may_exceed(const Simulation& sim, double above) {
     }
   }
   std::sort(found.begin(), found.end());
+  found.erase(std::unique(found.begin(), found.end()), found.end());  // faces between two tiles
   return found;
 }
 

@@ -18,8 +18,8 @@ FaceRow face_row(const Simulation& sim, std::size_t k);
 /// Whether it has opened after having been closed.
 bool has_opened(const Simulation& sim, std::size_t k);
 
-/// Work of face k accumulated until step n - 1, and that of its dashpots at n - 1 which they do
-/// last, J.
+/// Work of face k accumulated until step n - 1, and the second half of the work of its dashpot
+/// forces at n - 1, which is not yet in `damping`, J.
 struct FaceWork {
   double friction, damping, fracture, transfer, damping_due;
 };

@@ -7,56 +7,40 @@
 
 namespace edda {
 
-/// Nodal forces of step n; none before the first step.
-NodalForces forces_now(const Simulation& sim) {
+BodyVectors forces_now(const Simulation& sim) {
   if (sim.stepper->velocity_lag == 0.0 || sim.control.step_before == 0.0) return {};
-  NodalForces found = sim.motion.forces;
+  BodyVectors found = sim.motion.forces;
   gather_forces(found, sim.scene->blocks, sim.motion.state, sim.motion.pose, sim.motion.on_contacts,
-                sim.attached.springs, sim.scene->model.gravity, acting(sim), sim.motion.locked);
+                sim.attached.springs, sim.scene->model.gravity, acting(sim), rock_of(sim));
   return found;
 }
 
-/// `before`: forces_now() before the change.
-void note_jump(Simulation& sim, const NodalForces& before) {
+void note_jump(Simulation& sim, const BodyVectors& before) {
   const BlockSet& blocks = sim.scene->blocks;
-  NodalForces& jump = sim.motion.jump;
-  if (before.x[0].empty()) return;
-  const NodalForces now = forces_now(sim);
-  if (jump.x[0].empty()) jump = no_forces(blocks);
-  for (std::size_t m = 0; m < jump.modes.size(); ++m)
-    jump.modes.add(m, now.modes[m] - before.modes[m]);
-  for (std::size_t i = 0; i < blocks.size(); ++i) {
-    add(vectors_of(now.x, now.y, i) - vectors_of(before.x, before.y, i), jump.x, jump.y, i);
-  }
+  BodyVectors& jump = sim.motion.jump;
+  if (is_empty(before)) return;
+  const BodyVectors now = forces_now(sim);
+  if (is_empty(jump)) jump = zero_vectors(blocks);
+  for (std::size_t i = 0; i < blocks.size(); ++i)
+    add(vector_of(blocks, now, i) - vector_of(blocks, before, i), blocks, jump, i);
 }
 
-/// v_{n-1/2} was made by the forces before the jump. v_n = v_{n-1/2} + a h/2 is not to change, so
-/// with the new accelerations a + da the velocity becomes v_{n-1/2} - da h/2.
 void split_jump(Simulation& sim) {
   const BlockSet& blocks = sim.scene->blocks;
   const State& state = sim.motion.state;
-  NodalForces& jump = sim.motion.jump;
-  if (jump.x[0].empty()) return;
-  Nodes vx = state.vx, vy = state.vy;
-  ModeVectors rate = state.bend_rate;
+  BodyVectors& jump = sim.motion.jump;
+  if (is_empty(jump)) return;
+  BodyVectors velocity = state.velocity;
   bool any = false;
   for (std::size_t i = 0; i < blocks.size(); ++i) {
-    const NodeVectors force = vectors_of(jump.x, jump.y, i);
-    if (!is_free(blocks, state, i)) continue;
-    const BlockModes modes = blocks.modes(i);
-    for (std::size_t a = 0; a < modes.count; ++a) {
-      const std::size_t m = modes[a];
-      const double per = sim.motion.masses.mode_inverse[i];
-      rate.add(m, (-0.5 * sim.control.step_before * per) * jump.modes[m]);
-      any = any || jump.modes[m] != Vec2{};
-    }
-    if (force == NodeVectors{}) continue;
+    const BodyVector force = vector_of(blocks, jump, i);
+    if (!is_free(blocks, state, i) || dot(force, force) == 0.0) continue;
     any = true;
-    const NodeVectors a = accelerations(sim.motion.masses, i, force);
-    add(-0.5 * sim.control.step_before * a, vx, vy, i);
+    const BodyVector a = accelerations(sim.motion.masses, sim.scene->blocks, i, force);
+    add(-0.5 * sim.control.step_before * a, blocks, velocity, i);
   }
   jump = {};
-  if (any) change_velocities(sim, vx, vy, &rate);
+  if (any) change_velocities(sim, velocity);
 }
 
 }  // namespace edda

@@ -9,13 +9,13 @@ namespace edda {
 
 struct Simulation;
 
-/// Nodal forces of step n; none before the first step, and none where velocities belong to the same
+/// Forces of step n; none before the first step, and none where velocities belong to the same
 /// instant as positions.
-NodalForces forces_now(const Simulation& sim);
+BodyVectors forces_now(const Simulation& sim);
 
 /// Adds the change of the forces to the jump that the next step corrects for. `before`:
 /// forces_now() before the change.
-void note_jump(Simulation& sim, const NodalForces& before);
+void note_jump(Simulation& sim, const BodyVectors& before);
 
 /// Corrects the velocities for the jump, at the beginning of a step. v_{n-1/2} was made by the
 /// forces before the jump. v_n = v_{n-1/2} + a h/2 is not to change, so with the new accelerations

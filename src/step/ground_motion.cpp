@@ -23,6 +23,8 @@ Vec2 ground_velocity(const Simulation& sim) {
              ground_acceleration(sim.scene->model, sim.attached.loads.intervals, state.time);
 }
 
+namespace {
+
 /// 2 v of the waves that come up through a boundary, m/s; `none`: of all boundaries.
 Vec2 twice_incoming(const Simulation& sim, Index boundary) {
   const Model& model = sim.scene->model;
@@ -36,6 +38,8 @@ Vec2 twice_incoming(const Simulation& sim, Index boundary) {
   }
   return sum;
 }
+
+}  // namespace
 
 DashpotDrive dashpot_drive(const Simulation& sim, Vec2 of_ground,
                            const std::vector<FreeFieldColumn>& next) {
@@ -59,7 +63,7 @@ DashpotDrive dashpot_drive(const Simulation& sim, Vec2 of_ground,
     const FreeFieldColumn& then = next[static_cast<std::size_t>(q)];
     const double y = free_field.height[p];
     drive.reference[p] = 0.5 * (now.at(now.velocity, y) + then.at(then.velocity, y));
-    drive.push[p] = free_field.face[p] * now.traction(now.moved, y);
+    drive.push[p] = free_field.face[p] * now.traction(now.moved, free_field.middle[p]);
   }
   return drive;
 }
@@ -81,8 +85,6 @@ std::vector<FreeFieldColumn> next_free_field(const Simulation& sim, Vec2 of_grou
   return next_columns(free_field.columns, drive, h_old, h_new);
 }
 
-/// Starts the ground half a step back, as the blocks are: v_{-1/2} = -a_0 h/2. Sets its earlier
-/// position accordingly.
 void start_ground(Simulation& sim, double h) {
   const BlockSet& blocks = sim.scene->blocks;
   BoundarySprings& springs = sim.attached.springs;
@@ -113,7 +115,7 @@ void drive_ground(Simulation& sim, double h_old, double h_new) {
   }
   own.next_ground = next_ground(sim.scene->model, sim.attached.loads, ground, sim.attached.springs,
                                 state.time, h_old, h_new);
-  place_fixed(sim.scene->blocks, ground, own.next_ground.shift, state.x, state.y);
+  place_fixed(sim.scene->blocks, ground, own.next_ground.shift, state.position);
   own.next_columns = next_free_field(sim, own.next_ground.velocity, h_old, h_new);
   own.drive =
       dashpot_drive(sim, 0.5 * (ground.velocity + own.next_ground.velocity), own.next_columns);
@@ -122,17 +124,16 @@ void drive_ground(Simulation& sim, double h_old, double h_new) {
 void stop_ground(Simulation& sim) {
   const Ground& ground = sim.attached.ground;
   State& state = sim.motion.state;
-  if (ground.moves) place_fixed(sim.scene->blocks, ground, ground.shift, state.x, state.y);
+  if (ground.moves) place_fixed(sim.scene->blocks, ground, ground.shift, state.position);
 }
 
-/// Force of faces and bolts at n on the blocks that move with the ground.
 Vec2 force_on_fixed(const Simulation& sim) {
   Vec2 on_fixed;
   for (const Id i : sim.attached.ground.fixed_blocks) {
-    NodeVectors f{};
-    add_bolts(f, sim.attached.bolts, i);
-    const NodalForces& faces = sim.motion.on_contacts;
-    on_fixed += resultant(vectors_of(faces.x, faces.y, i)) + resultant(f);
+    BlockForces f{sim.scene->blocks, i};
+    add_bolts(f, sim.attached.bolts);
+    const BodyVectors& faces = sim.motion.on_contacts;
+    on_fixed += resultant(vectors_of(faces, i)) + resultant(f.sum.nodes);
   }
   return on_fixed;
 }
@@ -153,9 +154,13 @@ void account_boundaries(Simulation& sim, double h_old, double h_new) {
     const Dashpot& at = dashpots.points[p];
     const bool acts = dashpots.acts[static_cast<std::size_t>(at.boundary)] != 0;
     if (!acts || !is_free(sim.scene->blocks, state, at.block)) continue;
-    const NodeVectors before = vectors_of(own.old_vx, own.old_vy, at.block),
-                      after = vectors_of(state.vx, state.vy, at.block);
-    const Vec2 moved = 0.5 * weighted(at.weight, h_old * before + h_new * after);
+    const NodeVectors before = vectors_of(own.old_velocity, at.block),
+                      after = vectors_of(state.velocity, at.block);
+    Vec2 moved = 0.5 * weighted(at.weight, h_old * before + h_new * after);
+    if (at.node != no_id) {
+      const std::size_t mode = sim.scene->blocks.bending.modes() + at.node;
+      moved += 0.5 * (h_old * own.old_velocity.modes[mode] + h_new * state.velocity.modes[mode]);
+    }
     const Vec2 carried = (0.5 * (h_old + h_new)) * own.drive.reference[p];
     const Vec2 push = own.drive.push.empty() ? Vec2{} : own.drive.push[p];
     accounts.damping_work.joules[at.block] -=
@@ -187,9 +192,10 @@ double bolt_power(const Simulation& sim) {
   return ordered_sum(blocks.size(), [&](std::size_t i) {
     const bool carried = blocks.fixed[i] && ground.moves;
     if (!carried && !is_free(blocks, state, i)) return 0.0;
-    NodeVectors f{};
-    add_bolts(f, bolts, i);
-    return dot(f, carried ? at_every_node(ground.velocity) : vectors_of(state.vx, state.vy, i));
+    BlockForces f{blocks, i};
+    add_bolts(f, bolts);
+    return carried ? dot(f.sum.nodes, at_every_node(ground.velocity))
+                   : dot(f.sum, vector_of(blocks, state.velocity, i));
   });
 }
 

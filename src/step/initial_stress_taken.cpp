@@ -23,7 +23,23 @@ void load_boundaries_with_initial_stress(Simulation& sim) {
   if (!wall_forces.empty()) keep(sim, wall_forces);
 }
 
-void close_contacts(Simulation& sim, FaceStates& states) {
+bool hold_walls_of_openings(Simulation& sim) {
+  const Model& model = sim.scene->model;
+  const BlockSet& blocks = sim.scene->blocks;
+  if (!model.initial_stress || model.openings.empty()) return false;
+  const StressField field(model, blocks.origin);
+  const LoadsNow at_start = loads_at(model, sim.attached.loads, 0.0);
+  const std::vector<WallForce> forces =
+      initial_wall_forces(model, blocks, FaceForces(blocks, field, at_start));
+  if (forces.empty()) return false;
+  for (const WallForce& f : forces)
+    sim.attached.loads.remaining[static_cast<std::size_t>(f.owner)] = {0.0, 1.0,
+                                                                       sim.motion.state.time};
+  keep(sim, forces);
+  return true;
+}
+
+void load_contacts_with_initial_stress(Simulation& sim, FaceStates& states) {
   const Model& model = sim.scene->model;
   const BlockSet& blocks = sim.scene->blocks;
   FaceSet& contacts = sim.motion.contacts;

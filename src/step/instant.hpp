@@ -15,7 +15,7 @@ struct Simulation;
 /// copies are large: do not keep one per row of output.
 struct Instant {
   State state;                    ///< x, y and v at n
-  NodalForces forces;             ///< at n, N
+  BodyVectors forces;             ///< at n, N
   std::vector<Vec2> on_dashpots;  ///< at n, N
 };
 

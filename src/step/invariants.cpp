@@ -14,17 +14,13 @@
 namespace edda {
 namespace {
 
-std::string of_nodes(const Simulation& sim) {
+std::string of_blocks(const Simulation& sim) {
   const State& state = sim.motion.state;
-  const NodalForces& forces = sim.motion.forces;
-  for (std::size_t i = 0; i < sim.scene->blocks.size(); ++i) {
+  const BlockSet& b = sim.scene->blocks;
+  for (std::size_t i = 0; i < b.size(); ++i) {
     if (state.alive[i] == 0) continue;
-    for (std::size_t k = 0; k < nodes_per_block; ++k) {
-      for (const double value : {state.x[k][i], state.y[k][i], state.vx[k][i], state.vy[k][i],
-                                 forces.x[k][i], forces.y[k][i]}) {
-        if (!std::isfinite(value)) return fmt::format("node {} of block {} is not finite", k, i);
-      }
-    }
+    for (const BodyVectors* of : {&state.position, &state.velocity, &sim.motion.forces})
+      if (!is_finite(b, *of, i)) return fmt::format("block {} is not finite", i);
   }
   return {};
 }
@@ -86,7 +82,7 @@ std::string of_faces(const Simulation& sim) {
 }  // namespace
 
 std::string broken_invariant(const Simulation& sim) {
-  std::string broken = of_nodes(sim);
+  std::string broken = of_blocks(sim);
   if (broken.empty()) broken = of_faces(sim);
   const double time = sim.motion.state.time, target = sim.control.target;
   if (broken.empty() && time > target * (1.0 + 1e-12)) {

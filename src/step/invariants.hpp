@@ -14,11 +14,12 @@ inline constexpr bool invariants_are_checked = true;
 inline constexpr bool invariants_are_checked = false;
 #endif
 
-/// The first invariant that does not hold, or nothing: nodes of blocks that are there have finite
+/// The first invariant that does not hold, or nothing: blocks that are there have finite
 /// positions, velocities and forces; faces join edges of two blocks, in range, each pair once, with
 /// a law; their gates and the positions of their ends lie in [0, 1], what they store and dissipate
-/// is not negative, and an end without bond or dashpot carries no more shear than Coulomb's limit;
-/// time does not pass the event that the steps lead to.
+/// is not negative; in the explicit method, unless a law depends on slip or a stage glues, an end
+/// without bond or dashpot carries no more shear than Coulomb's limit; time does not pass the event
+/// that the steps lead to.
 std::string broken_invariant(const Simulation& sim);
 
 }  // namespace edda

@@ -10,10 +10,8 @@ namespace edda {
 /// (h_old - h_new)/(4 h_mean), J, with the definition of work of the energy balance.
 double energy_of_step_change(const State& state, const Leap& leap);
 
-/// Damping in force in a step of the mean length h (s), prepared for it.
-StepDamping step_damping(const Simulation& sim, double h, StrainDamping& strain, BlockKicks& kicks);
-/// That of the modes; null where none is damped.
-ModeDamping* mode_damping_of(const Simulation& sim, ModeDamping& damping);
+/// Prepares the damping of a step of the mean length h, s.
+void prepare_damping(const Simulation& sim, double h, DampingOfStep& damping);
 
 /// The step from n to n + 1, with the state at n.
 Leap leap_of(const Simulation& sim, double h_old, double h_new);

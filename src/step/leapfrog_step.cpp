@@ -23,15 +23,27 @@ namespace {
 void account_loads(Simulation& sim, double h_old, double h_new, const LoadsNow& now) {
   const State& state = sim.motion.state;
   const Pose& pose = sim.motion.pose;
+  const BlockSet& b = sim.scene->blocks;
+  const BodyVectors& old = sim.leapfrog.old_velocity;
   const auto moved = [&](Id i) {
-    return 0.5 * (h_old * vectors_of(sim.leapfrog.old_vx, sim.leapfrog.old_vy, i) +
-                  h_new * vectors_of(state.vx, state.vy, i));
+    return 0.5 * (h_old * vector_of(b, old, i) + h_new * vector_of(b, state.velocity, i));
   };
-  const auto bent = [&](std::size_t m) {
-    return 0.5 * (h_old * sim.leapfrog.old_rate[m] + h_new * state.bend_rate[m]);
+  const auto nodes_moved = [&](Id i) {
+    return 0.5 * (h_old * vectors_of(old, i) + h_new * vectors_of(state.velocity, i));
   };
   sim.accounts.external_work +=
-      load_work(sim, now, pose.x1, pose.y1, moved, bent) + frame_work(sim, now, moved);
+      load_work(sim, now, pose.x1, pose.y1, moved) + frame_work(sim, now, nodes_moved);
+}
+
+/// Of all blocks, on all forces at n, by the velocities of the state.
+void add_all_dashpots(const Simulation& sim, BodyVectors& forces, std::vector<Vec2>& on_point,
+                      const DashpotStep& step) {
+  const BlockSet& blocks = sim.scene->blocks;
+  const Dashpots& dashpots = sim.attached.dashpots;
+  const State& state = sim.motion.state;
+  const DashpotScene scene{blocks, sim.motion.masses, state, state.velocity};
+  add_dashpots(forces, on_point, dashpots, scene, step, 0, blocks.size());
+  add_mesh_dashpots(forces, on_point, dashpots, scene, step, nullptr, 0, blocks.size());
 }
 
 /// Velocities half a step back from the start (theory, section 7.1), and the faces as if positions
@@ -42,14 +54,14 @@ void start_leapfrog(Simulation& sim) {
   const BlockSet& blocks = sim.scene->blocks;
   State& state = sim.motion.state;
   Pose& pose = sim.motion.pose;
-  NodalForces& forces = sim.motion.forces;
+  BodyVectors& forces = sim.motion.forces;
   LeapfrogStep& own = sim.leapfrog;
   const double h = state.step;
   sim.control.step_before = h;
   auto look_back = [&] {
     const std::vector<double> old_x1 = pose.x1, old_y1 = pose.y1;
     for (std::size_t i = 0; i < blocks.size(); ++i) {
-      place_vertices(blocks, state.vx, state.vy, state.bend_rate, i, pose.x1, pose.y1);
+      place_vertices(blocks, state.velocity, i, pose.x1, pose.y1);
     }
     parallel_for(blocks.vertex_count(), [&](std::size_t v) {
       pose.x1[v] = pose.x[v] - h * pose.x1[v];
@@ -59,19 +71,18 @@ void start_leapfrog(Simulation& sim) {
     change_faces(sim, [&](const FaceSet& faces, FaceStates& states) {
       correct_last_step(faces, states, blocks, pose, old_x1, old_y1);
     });
-    evaluate_at_rest(sim, h);
+    reevaluate_at_n(sim, h);
     sum_contact_forces(sim);
   };
   look_back();
   gather_forces(forces, blocks, state, pose, sim.motion.on_contacts, sim.attached.springs,
-                sim.scene->model.gravity, acting(sim), sim.motion.locked);
+                sim.scene->model.gravity, acting(sim), rock_of(sim));
   own.drive = dashpot_drive(sim, {}, sim.attached.free_field.columns);
-  add_dashpots(forces, sim.motion.on_dashpots, sim.attached.dashpots,
-               {blocks, sim.motion.masses, state, state.vx, state.vy},
-               {0.0, 0.0, nullptr, own.drive.reference, own.drive.push}, 0, blocks.size());
-  start_velocities(state, blocks, sim.motion.masses, forces.x, forces.y, h,
-                   sim.motion.damping.mass_damping(), forces.modes);
+  add_all_dashpots(sim, forces, sim.motion.on_dashpots,
+                   {0.0, 0.0, nullptr, own.drive.reference, own.drive.push});
+  start_velocities(state, blocks, sim.motion.masses, forces, h, sim.motion.damping.mass_damping());
   look_back();
+  start_zones(sim.scene->zones, blocks, state, h, sim.motion.zones);
   // The state of the bolts does not go back: their forces at the start do F_0 . (x_0 - x_{-1})/2
   // more work than the bolts lose.
   sim.attached.bolts.work_pending = 0.5 * h * bolt_power(sim);
@@ -86,21 +97,15 @@ bool move_blocks(Simulation& sim, double h_old, const LoadsNow& at_work) {
   LeapfrogStep& own = sim.leapfrog;
   std::swap(pose.x1, pose.x2);
   std::swap(pose.y1, pose.y2);
-  if (own.old_vx[0].size() != sim.scene->blocks.size()) {
-    own.old_vx = state.vx;
-    own.old_vy = state.vy;
-    own.old_rate = state.bend_rate;
-  }
-  std::swap(own.old_vx, state.vx);
-  std::swap(own.old_vy, state.vy);
-  std::swap(own.old_rate, state.bend_rate);
+  if (own.old_velocity.x[0].size() != sim.scene->blocks.size()) own.old_velocity = state.velocity;
+  std::swap(own.old_velocity, state.velocity);
   constexpr int most_halvings = 40;
   constexpr double lost = 1e100;  // m
   const LoadsNow* not_yet_gathered = &at_work;
   for (int halvings = 0; !move(sim, h_old, state.step, not_yet_gathered); ++halvings) {
     not_yet_gathered = nullptr;
     if (control.last_displacement > lost || halvings == most_halvings) return false;
-    undo_step(state, sim.scene->blocks, state.step, own.old_vx, own.old_vy, own.old_rate);
+    undo_step(state, state.step, own.old_velocity);
     std::swap(pose.x, pose.x1);  // bitwise those of n, which the faces remember
     std::swap(pose.y, pose.y1);
     stop_ground(sim);
@@ -116,22 +121,8 @@ bool move_blocks(Simulation& sim, double h_old, const LoadsNow& at_work) {
 void switch_faces(Simulation& sim, double h_old) {
   Motion& motion = sim.motion;
   Accounts& accounts = sim.accounts;
-  LeapfrogStep& own = sim.leapfrog;
   if (sim.scene->model.solver.switching == Switching::exact) {
-    const StepTaken taken{sim.scene->blocks,
-                          motion.masses,
-                          motion.state,
-                          motion.pose,
-                          own.old_vx,
-                          own.old_vy,
-                          h_old,
-                          motion.state.step,
-                          own.damps.mass,
-                          own.damps.strain,
-                          own.damps.kicks,
-                          &own.old_rate,
-                          sim.motion.masses.mode_damping[0].empty() ? nullptr : &own.mode_damping};
-    switch_in_tiles(sim, taken);
+    switch_in_tiles(sim, {leap_of(sim, h_old, motion.state.step), motion.state, motion.pose});
   }
   accounts.penetration = largest_closure(motion.tiled);
 }
@@ -153,7 +144,7 @@ void account_for_step(Simulation& sim, double h_old, const LoadsNow& at_work) {
   }
   accounts.steps.over_critical =
       std::max(accounts.steps.over_critical, h / sim.control.bound.critical_step);
-  account_damping(state, leap, accounts.damping_work, &sim.leapfrog.mode_damping);
+  account_damping(state, leap, accounts.damping_work);
   account_loads(sim, h_old, h, at_work);
   account_boundaries(sim, h_old, h);
 }
@@ -171,7 +162,7 @@ void adjust_step(Simulation& sim) {
 }
 
 /// Puts the vertices back to step n, at which the contacts are, where the step to n + 1 has failed;
-/// the nodes stay where it has brought them, beyond all numbers.
+/// the nodes keep the rejected positions, which may not be finite.
 void leave_vertices_at_n(Pose& pose) {
   std::swap(pose.x, pose.x1);
   std::swap(pose.y, pose.y1);
@@ -191,8 +182,8 @@ void set_leapfrog_limit(Simulation& sim) {
 }  // namespace
 
 std::optional<Failure> leap(Simulation& sim, const LeapContacts& contacts) {
-  StageSeconds& seconds = sim.accounts.seconds;
-  StageClock clock(sim.motion.state.steps);
+  StepSeconds& seconds = sim.accounts.seconds;
+  StepClock clock(sim.motion.state.steps);
   const double h_old = sim.control.step_before;
   split_jump(sim);
   const LoadsNow at_work = acting(sim);
@@ -210,7 +201,7 @@ std::optional<Failure> leap(Simulation& sim, const LeapContacts& contacts) {
   sim.accounts.max_penetration = std::max(sim.accounts.max_penetration, sim.accounts.penetration);
   clock.lap(seconds.forces);
   account_for_step(sim, h_old, at_work);
-  update_bolts(sim.attached.bolts, sim.motion.state);
+  update_bolts(sim.attached.bolts, sim.scene->blocks, sim.motion.state);
   finish_step(sim);
   update_relaxation(sim, at_work);
   clock.lap(seconds.integrate);
@@ -256,56 +247,35 @@ void limit_leap(Simulation& sim, const StepBound& bound) {
 namespace {
 
 /// v_n = (v_{n-1/2} + v_{n+1/2})/2; the next step is made on copies.
-void look_leapfrog(const Simulation& sim, Instant& at) {
+void complete_leapfrog(const Simulation& sim, Instant& at) {
   const BlockSet& blocks = sim.scene->blocks;
   const Masses& masses = sim.motion.masses;
-  const Dashpots& dashpots = sim.attached.dashpots;
   const State& state = sim.motion.state;
   const double h = state.step;
   at.on_dashpots = sim.motion.on_dashpots;
-  StrainDamping strain;
-  BlockKicks kicks;
-  const StepDamping damping = step_damping(sim, h, strain, kicks);
+  DampingOfStep damps;
+  prepare_damping(sim, h, damps);
+  const StepDamping& damping = damps.in_force;
   const Vec2 ground = ground_velocity(sim);
   const DashpotDrive drive = dashpot_drive(sim, ground, next_free_field(sim, ground, h, h));
-  add_dashpots(at.forces, at.on_dashpots, dashpots, {blocks, masses, state, state.vx, state.vy},
-               {h, 0.5 * damping.mass * h, damping.kicks ? &kicks.mass : nullptr, drive.reference,
-                drive.push},
-               0, blocks.size());
-  const bool bend = blocks.bending.any();
-  const Leap leap{blocks,
-                  masses,
-                  at.forces.x,
-                  at.forces.y,
-                  state.vx,
-                  state.vy,
-                  h,
-                  h,
-                  damping,
-                  bend ? &at.forces.modes : nullptr,
-                  bend ? &state.bend_rate : nullptr};
-  if (bend) {
-    ModeDamping modes;
-    ModeDamping* const damps = mode_damping_of(sim, modes);
-    advance_modes(at.state, leap, damps, at.forces.x, at.forces.y, 0, blocks.size());
-    for (std::size_t m = 0; m < state.bend.size(); ++m)
-      at.state.bend_rate.set(m, 0.5 * (at.state.bend_rate[m] + state.bend_rate[m]));
-    at.state.bend = state.bend;
-  }
+  add_all_dashpots(sim, at.forces, at.on_dashpots,
+                   {h, 0.5 * damping.mass * h, damping.kicks ? &damping.kicks->mass : nullptr,
+                    drive.reference, drive.push});
+  const Leap leap{blocks, masses, at.forces, state.velocity, h, h, damping};
+  advance_modes(at.state, leap, at.forces, 0, blocks.size());
   advance(at.state, leap);
-  at.state.x = state.x;
-  at.state.y = state.y;
-  Nodes &vx = at.state.vx, &vy = at.state.vy;
-  for (std::size_t i = 0; i < blocks.size(); ++i) {
-    store(0.5 * (vectors_of(vx, vy, i) + vectors_of(state.vx, state.vy, i)), vx, vy, i);
-  }
-  for (const Id i : sim.attached.ground.fixed_blocks) store(at_every_node(ground), vx, vy, i);
+  at.state.position = state.position;
+  BodyVectors& velocity = at.state.velocity;
+  for (std::size_t i = 0; i < blocks.size(); ++i)
+    store(0.5 * (vector_of(blocks, velocity, i) + vector_of(blocks, state.velocity, i)), blocks,
+          velocity, i);
+  for (const Id i : sim.attached.ground.fixed_blocks) store(at_every_node(ground), velocity, i);
 }
 
 /// v/w + R/(m w^2) with the frequency w of the motion of the block (FrequencyEstimate).
 double remaining_travel_of_leapfrog(const Simulation& sim, std::size_t i, double force) {
   const double w = sim.relaxation.estimate.frequency_of(i),
-               speed = norm(centroid(sim.motion.state.vx, sim.motion.state.vy, i));
+               speed = norm(centroid(sim.motion.state.velocity, i));
   if (speed == 0.0 && force == 0.0) return 0.0;
   if (w == 0.0) return std::numeric_limits<double>::infinity();
   return speed / w + force / (inertia_of(sim.motion.masses, i) * w * w);
@@ -320,7 +290,7 @@ double ahead_of_leapfrog(const Simulation& sim) {
 const Stepper leapfrog_stepper{.start = start_leapfrog,
                                .set_limit = set_leapfrog_limit,
                                .step = step_leapfrog,
-                               .look = look_leapfrog,
+                               .complete_instant = complete_leapfrog,
                                .remaining_travel = remaining_travel_of_leapfrog,
                                .search = search_in_tiles,
                                .begin_contacts = begin_faces,

@@ -31,18 +31,14 @@ void scale_masses(Simulation& sim);
 void limit_leap(Simulation& sim, const StepBound& bound);
 
 struct LeapfrogStep {
-  Nodes old_vx, old_vy;    ///< v_{n-1/2}, m/s; swapped with State::vx and vy as a step begins
-  ModeVectors old_rate;    ///< the same of the modes
-  GroundStep next_ground;  ///< ground at the end of the step
-  Vec2 on_fixed;           ///< N at n: force_on_fixed() before the contact activation
-  DashpotDrive drive;      ///< motion of the ground behind the dashpots
+  BodyVectors old_velocity;  ///< v_{n-1/2}, m/s; swapped with State::velocity as a step begins
+  GroundStep next_ground;    ///< ground at the end of the step
+  Vec2 on_fixed;             ///< N at n: force_on_fixed() before the contact activation
+  DashpotDrive drive;        ///< motion of the ground behind the dashpots
   std::vector<FreeFieldColumn> next_columns;  ///< free field at the end of the step
   std::vector<double> largest;  ///< [chunks of blocks] squares of largest displacements, m2
   FaceSwitchingScratch switching;
-  StrainDamping strain_damping;
-  ModeDamping mode_damping;
-  BlockKicks kicks;   ///< of adaptive damping, block by block
-  StepDamping damps;  ///< damping in force in the step
+  DampingOfStep damping;
 };
 
 }  // namespace edda

@@ -11,6 +11,7 @@
 #include "contacts/laws.hpp"
 #include "contacts/tiled_faces.hpp"
 #include "forces/nodal_forces.hpp"
+#include "zones/zone_set.hpp"
 
 namespace edda {
 
@@ -21,12 +22,13 @@ struct Motion {
   LawTable laws;            ///< with the strength in force
   FaceSet contacts;         ///< the list of faces, and what is decided of them
   TiledFaces tiled;         ///< and their states
-  NodalForces on_contacts;  ///< forces of the contacts at n on the blocks, N; in steps of fixed
+  BodyVectors on_contacts;  ///< forces of the contacts at n on the blocks, N; in steps of fixed
                             ///< ones only where the ground moves
-  NodalForces forces;
+  BodyVectors forces;
   ModeVectors locked;  ///< [modes] N, in the frame of each block: forces on its modes that balance
                        ///< the initial stress; or empty
-  NodalForces jump;    ///< jump of the forces at n since the last step (note_jump()); or empty
+  Zones zones;         ///< evaluated at n
+  BodyVectors jump;    ///< jump of the forces at n since the last step (note_jump()); or empty
   std::vector<Vec2> on_dashpots;  ///< [points of dashpots] forces of the dashpots in the last step,
                                   ///< N
   Damping damping;                ///< in force

@@ -23,7 +23,7 @@ namespace {
 double step_within(const BlockSet& b, const State& s, Vec2 gravity, double limit) {
   double speed = 0.0;
   for (std::size_t v = 0; v < b.vertex_count(); ++v) {
-    if (!b.fixed[b.vertex_block[v]]) speed = std::max(speed, norm(vertex_at(b, s.vx, s.vy, v)));
+    if (!b.fixed[b.vertex_block[v]]) speed = std::max(speed, norm(corner_at(b, s.velocity, v)));
   }
   // v h + g h^2/2 = limit
   const double root = std::sqrt(speed * speed + 2.0 * norm(gravity) * limit);
@@ -37,13 +37,12 @@ Failure out_of_balance(const Simulation& sim, Attempt last) {
     fast.time = sim.motion.state.time;
     double most = -1.0;
     for (std::size_t i = 0; i < sim.scene->blocks.size(); ++i) {
-      const double speed = norm(centroid(sim.motion.state.vx, sim.motion.state.vy, i));
+      const double speed = norm(centroid(sim.motion.state.velocity, i));
       if (sim.scene->blocks.fixed[i] || !(speed > most)) continue;
       most = speed;
       fast.block = static_cast<Id>(i);
     }
-    fast.place =
-        centroid(sim.motion.state.x, sim.motion.state.y, fast.block) + sim.scene->blocks.origin;
+    fast.place = centroid(sim.motion.state.position, fast.block) + sim.scene->blocks.origin;
     fast.message = fmt::format(
         "{} moves at {:.3g} m/s, further than solver.max_displacement_ratio allows even in a step "
         "of {:.3g} s: check velocities and loads, and their units",
@@ -57,7 +56,7 @@ Failure out_of_balance(const Simulation& sim, Attempt last) {
   Failure f;
   f.time = sim.motion.state.time;
   f.block = sim.implicit.block_of[static_cast<std::size_t>(worst - error.begin())];
-  f.place = centroid(sim.motion.state.x, sim.motion.state.y, f.block) + sim.scene->blocks.origin;
+  f.place = centroid(sim.motion.state.position, f.block) + sim.scene->blocks.origin;
   f.message = fmt::format(
       "forces and contacts of {} do not converge, not even in a step of {:.3g} s: loads or "
       "stiffnesses are out of proportion: check units, and the support of the block",
@@ -91,22 +90,25 @@ void start_newmark(Simulation& sim) {
   sim.control.step_before = state.step;
   pose.x1 = pose.x;
   pose.y1 = pose.y;
-  evaluate_at_rest(sim, state.step);
+  reevaluate_at_n(sim, state.step);
   end_at_rest(sim.motion.contacts, sim.motion.tiled.tiles, sim.scene->blocks, pose);
 }
 
 /// Work of the loads in the terms of the scheme: f_{n+1} . D.
 void account_loads(Simulation& sim, const LoadsNow& now) {
   const Pose& pose = sim.motion.pose;
-  const auto moved = [&](Id i) {
-    const ImplicitSolver& own = sim.implicit;
+  const BlockSet& b = sim.scene->blocks;
+  const ImplicitSolver& own = sim.implicit;
+  const auto nodes_moved = [&](Id i) {
     return vectors_of(own.matrix.part(own.moved, own.row_of[i]).head<degrees_of_freedom>());
   };
-  const auto bent = [&](std::size_t m) {
-    return sim.motion.state.bend[m] - sim.implicit.start_bend[m];
+  const auto moved = [&](Id i) {
+    BodyVector u = vector_of(b, sim.motion.state.position, i) - vector_of(b, own.start, i);
+    u.nodes = nodes_moved(i);
+    return u;
   };
   sim.accounts.external_work +=
-      load_work(sim, now, pose.x, pose.y, moved, bent) + frame_work(sim, now, moved);
+      load_work(sim, now, pose.x, pose.y, moved) + frame_work(sim, now, nodes_moved);
 }
 
 ImplicitSettings settings_of(const Simulation& sim) {
@@ -175,7 +177,7 @@ void lengthen_step(Simulation& sim) {
 std::optional<Failure> step_newmark(Simulation& sim) {
   Motion& motion = sim.motion;
   Accounts& accounts = sim.accounts;
-  StageClock clock(motion.state.steps);
+  StepClock clock(motion.state.steps);
   TiledFaces& tiled = sim.motion.tiled;
   fit_tiles(sim);
   // A step begins at the end of the last one, whatever the faces were evaluated for since.
@@ -198,13 +200,13 @@ std::optional<Failure> step_newmark(Simulation& sim) {
 }
 
 /// All values belong to one instant already.
-void look_newmark(const Simulation&, Instant&) {}
+void complete_newmark(const Simulation&, Instant&) {}
 
 /// The distance that the last static step moved the block.
 double remaining_travel_of_newmark(const Simulation& sim, std::size_t i, double) {
   const ImplicitSolver& own = sim.implicit;
-  if (own.mean_velocity_x[0].empty()) return std::numeric_limits<double>::infinity();
-  return sim.motion.state.step * norm(centroid(own.mean_velocity_x, own.mean_velocity_y, i));
+  if (is_empty(own.mean_velocity)) return std::numeric_limits<double>::infinity();
+  return sim.motion.state.step * norm(centroid(own.mean_velocity, i));
 }
 
 /// Steps may move vertices up to the limit from the first one on.
@@ -217,7 +219,7 @@ double ahead_of_newmark(const Simulation& sim) {
 const Stepper newmark_stepper{.start = start_newmark,
                               .set_limit = set_newmark_limit,
                               .step = step_newmark,
-                              .look = look_newmark,
+                              .complete_instant = complete_newmark,
                               .remaining_travel = remaining_travel_of_newmark,
                               .search = search_in_tiles,
                               .begin_contacts = begin_faces,

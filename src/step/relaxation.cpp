@@ -20,11 +20,6 @@
 namespace edda {
 namespace {
 
-/// Inertia of a node; for `consistent` masses its part of the block's.
-double inertia_of_node(const Masses& m, std::size_t k, std::size_t i) {
-  return m.kind == MassKind::consistent ? inertia_of(m, i) / nodes_per_block : m.node[k][i];
-}
-
 /// Upper limit of what one value may count, so that none is more than a quarter of the sum (with
 /// few values, more than four times their mean). Otherwise one block that slides alone would
 /// dominate the motion of all blocks that are to reach equilibrium.
@@ -47,7 +42,9 @@ double largest_part(const std::vector<double>& values) {
 
 /// Frequency of a wave across a square arrangement of all blocks, 1/s.
 double wave_frequency(const Simulation& sim) {
-  return 0.5 / (sim.motion.state.step * std::sqrt(static_cast<double>(sim.scene->blocks.size())));
+  const BlockSet& b = sim.scene->blocks;
+  return 0.5 /
+         (sim.motion.state.step * std::sqrt(static_cast<double>(b.size() + b.meshes.nodes())));
 }
 
 /// By which factor inertia is raised, the mean of the free blocks; 1 where there are none.
@@ -79,16 +76,17 @@ std::uint64_t steps_between_looks(const FrequencyEstimate& estimate, double h) {
   return static_cast<std::uint64_t>(std::clamp(wanted, least, most));
 }
 
-/// [nb] 1: counts in the frequency estimate, of blocks that `touch` something. A block that falls
-/// or slides away has no stiffness and moves further than all others together.
+/// [nb] 1: counts in the frequency estimate, of the blocks `supported` by a contact, spring or
+/// bolt. A block that falls or slides away has no stiffness and moves further than all others
+/// together.
 std::vector<std::uint8_t> counts_in_frequency(const Simulation& sim,
-                                              std::vector<std::uint8_t> stays) {
+                                              std::vector<std::uint8_t> supported) {
   const std::vector<std::uint8_t>& loose = sim.relaxation.loose;
-  for (std::size_t i = 0; i < stays.size(); ++i) {
-    if (!is_free(sim.scene->blocks, sim.motion.state, i)) stays[i] = 0;
-    if (!loose.empty() && loose[i] != 0) stays[i] = 0;
+  for (std::size_t i = 0; i < supported.size(); ++i) {
+    if (!is_free(sim.scene->blocks, sim.motion.state, i)) supported[i] = 0;
+    if (!loose.empty() && loose[i] != 0) supported[i] = 0;
   }
-  return stays;
+  return supported;
 }
 
 /// [nb] Rayleigh quotient by block: -dx . df and dx . M dx.
@@ -103,37 +101,27 @@ void look_at_block(Simulation& sim, const LoadsNow& at_work, std::size_t i, bool
                    Quotient& sum) {
   const BlockSet& blocks = sim.scene->blocks;
   const State& state = sim.motion.state;
-  const NodalForces& forces = sim.motion.forces;
+  const BodyVectors& forces = sim.motion.forces;
   FrequencyEstimate& estimate = sim.relaxation.estimate;
   const double h = state.step;
   const Vec2 gravity = sim.scene->model.gravity - at_work.gravity_reduction();
-  const BlockModes modes = blocks.modes(i);
-  ModeVectors load_on_modes;
-  load_on_modes.assign(group_size * modes.count, 0.0);
-  BlockForces load{blocks, i, {}, modes.count > 0 ? &load_on_modes : nullptr, modes.first};
+  BlockForces load{blocks, i};
   if (at_work.loads != nullptr && at_work.loads->place[i] != no_id)
     add_loads(load, at_work, sim.motion.pose.x1, sim.motion.pose.y1);
-  // The forces are those of the positions before the step.
-  const NodeVectors x = vectors_of(state.x, state.y, i) - h * vectors_of(state.vx, state.vy, i);
   const Vec2 weight = (blocks.mass[i] / nodes_per_block) * gravity;
-  const NodeVectors f = vectors_of(forces.x, forces.y, i) - at_every_node(weight) - load.nodes;
-  const NodeVectors dx = x - vectors_of(estimate.x, estimate.y, i),
-                    df = f - vectors_of(estimate.fx, estimate.fy, i);
-  for (std::size_t k = 0; counts && k < nodes_per_block; ++k) {
-    sum.stiffness[i] -= dot(dx[k], df[k]);
-    sum.inertia[i] += inertia_of_node(sim.motion.masses, k, i) * dot(dx[k], dx[k]);
+  // The forces are those of the positions before the step.
+  const BodyVector x =
+      vector_of(blocks, state.position, i) - h * vector_of(blocks, state.velocity, i);
+  BodyVector f = vector_of(blocks, forces, i);
+  f.nodes = f.nodes - at_every_node(weight);
+  f -= load.sum;
+  if (counts) {
+    const BodyVector dx = x - vector_of(blocks, estimate.position, i);
+    sum.stiffness[i] -= dot(dx, f - vector_of(blocks, estimate.force, i));
+    sum.inertia[i] += mass_product(sim.motion.masses, sim.scene->blocks, i, dx, dx);
   }
-  for (std::size_t a = 0; a < modes.count; ++a) {
-    const std::size_t m = modes[a];
-    const Vec2 at = state.bend[m] - h * state.bend_rate[m], moved = at - estimate.bend[m],
-               on = forces.modes[m] - load_on_modes[m - modes.first];
-    sum.stiffness[i] -= counts ? dot(moved, on - estimate.on_modes[m]) : 0.0;
-    sum.inertia[i] += counts ? dot(moved, moved) / sim.motion.masses.mode_inverse[i] : 0.0;
-    estimate.bend.set(m, at);
-    estimate.on_modes.set(m, on);
-  }
-  store(x, estimate.x, estimate.y, i);
-  store(f, estimate.fx, estimate.fy, i);
+  store(x, blocks, estimate.position, i);
+  store(f, blocks, estimate.force, i);
 }
 
 /// w^2 of the whole model, 1/s2; nothing where nothing has moved. No block counts with an inertia
@@ -151,7 +139,8 @@ std::optional<double> square_of_frequency(const Quotient& sum, double most_of_on
 
 /// Updates w of each block, from -dx . df/dx . M dx of its own motion: in a mode of vibration it is
 /// that of the mode for every block; a block that slides or falls has none, whatever the others do,
-/// and damping does not hold it. Half of the previous square remains. What flies is not damped.
+/// and damping does not hold it. Half of the previous square remains. Unsupported blocks are not
+/// damped.
 void update_frequencies_of_blocks(Simulation& sim, const Quotient& sum,
                                   const std::vector<std::uint8_t>& touch) {
   std::vector<double>& w = sim.relaxation.estimate.of_block;
@@ -172,15 +161,9 @@ void update_estimate(Simulation& sim, const LoadsNow& at_work) {
   const std::size_t nb = sim.scene->blocks.size();
   const State& state = sim.motion.state;
   FrequencyEstimate& estimate = sim.relaxation.estimate;
-  const bool first = estimate.x[0].empty();
+  const bool first = is_empty(estimate.position);
   if (!first && state.steps < estimate.since + steps_between_looks(estimate, state.step)) return;
-  if (first) {
-    for (Nodes* nodes : {&estimate.x, &estimate.y, &estimate.fx, &estimate.fy}) {
-      *nodes = zero_nodes(nb);
-    }
-    for (ModeVectors* modes : {&estimate.bend, &estimate.on_modes})
-      modes->assign(sim.scene->blocks.bending.modes(), 0.0);
-  }
+  if (first) estimate.position = estimate.force = zero_vectors(sim.scene->blocks);
   const std::vector<std::uint8_t> touch = touching(sim);
   const std::vector<std::uint8_t> stays = counts_in_frequency(sim, touch);
   const bool none_stays =
@@ -210,7 +193,7 @@ void update_estimate(Simulation& sim, const LoadsNow& at_work) {
 /// Reciprocal factor of the strength during the elastic initialisation (Relaxation::Hold).
 constexpr double holding = 1e-3;
 
-/// Brings strength to what it is at this part of its gradual change.
+/// Puts strength in force as it is at this part of its gradual change.
 void change_strength(Simulation& sim, double part) {
   const Relaxation& relaxation = sim.relaxation;
   double& bonds = sim.motion.contacts.bond_strength;
@@ -222,11 +205,11 @@ void change_strength(Simulation& sim, double part) {
   take_strength_factors(sim, now);
 }
 
-/// Lets joints that neither opened nor slid meanwhile do so.
+/// Unglues the joints that were glued for the elastic initialisation.
 void let_open(Simulation& sim) {
   if (!sim.relaxation.holds_together) return;
   sim.relaxation.holds_together = false;
-  const NodalForces before = forces_now(sim);
+  const BodyVectors before = forces_now(sim);
   change_faces(sim, [&](FaceSet& faces, FaceStates&) {
     unglue_faces(faces, sim.scene->blocks, sim.motion.pose);
   });
@@ -333,12 +316,15 @@ void begin_gradually(Simulation& sim, const std::vector<double>& strength_factor
   const State& state = sim.motion.state;
   const LawTable& laws = sim.motion.laws;
   Relaxation& relaxation = sim.relaxation;
-  if (state.steps == 0) {  // the initial stress is in equilibrium with the weight already
-    const double least = time_of_displacements(sim);
-    const bool weight = !sim.scene->model.initial_stress;
-    if (!weight && least == 0.0) return set_strength_factors(sim, strength_factors);
+  // The initial stress is in equilibrium with the weight already, but not at the walls of openings.
+  const bool weight = state.steps == 0 && !sim.scene->model.initial_stress;
+  const double least = time_of_displacements(sim);
+  const bool walls = state.steps == 0 && hold_walls_of_openings(sim);
+  if (state.steps == 0 && !weight && least == 0.0 && !walls)
+    return set_strength_factors(sim, strength_factors);
+  if (weight || (state.steps == 0 && least > 0.0)) {
     const FaceSet& faces = sim.motion.contacts;
-    if (faces.size() > 0) hold_joints(sim);
+    if (faces.size() > 0 || sim.scene->blocks.meshes.any()) hold_joints(sim);
     // Supports that are displaced meanwhile would pull apart what holds together.
     relaxation.holds_together = weight && least == 0.0 && faces.size() > 0 && !faces.gluing;
     if (relaxation.holds_together) {
@@ -352,7 +338,6 @@ void begin_gradually(Simulation& sim, const std::vector<double>& strength_factor
     for (double& factor : relaxation.strength_from) factor *= holding;
     return set_strength_factors(sim, relaxation.strength_from);
   }
-  const double least = time_of_displacements(sim);
   const ActiveIntervals& intervals = loads.intervals;
   const auto now = [&](double time) { return time == state.time; };
   bool changes = more || least > 0.0 || strength_factors != laws.divided_by ||

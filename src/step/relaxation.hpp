@@ -15,17 +15,16 @@ struct Simulation;
 /// Estimate of the present frequency of the motion of a model by the Rayleigh quotient (Underwood
 /// 1983): -dx . df / dx . M dx, with the changes dx of positions and df of forces over a quarter of
 /// a radian of the motion. Over that many steps fast vibrations hardly count; from step to step
-/// they would dominate the slow motion that has furthest to go.
+/// they would dominate the slow motion that has furthest to go. Frequencies are angular, rad/s.
 struct FrequencyEstimate {
-  double frequency = 0.0;        ///< 1/s, of the whole model; 0: not yet known
-  std::vector<double> of_block;  ///< [nb] 1/s, of each block; empty: not yet known
-  double least = 0.0;            ///< 1/s: half of the frequency when the last change began
+  double frequency = 0.0;        ///< rad/s, of the whole model; 0: not yet known
+  std::vector<double> of_block;  ///< [nb] rad/s, of each block; empty: not yet known
+  double least = 0.0;            ///< rad/s: lower bound of clock(), set when a change begins
   std::uint64_t since = 0;       ///< step at which the following were recorded
-  Nodes x, y;                    ///< [nodes][nb] positions then, m; empty: none yet
-  Nodes fx, fy;                  ///< [nodes][nb] forces then, N
-  ModeVectors bend, on_modes;    ///< [modes] the same of the modes
+  BodyVectors position;          ///< then, m; empty: none yet
+  BodyVectors force;             ///< then, without loads, N
 
-  /// Frequency by which gradual changes proceed, 1/s: blocks that slide away lower the frequency,
+  /// Frequency by which gradual changes proceed, rad/s: blocks that slide away lower the frequency,
   /// but do not stop these.
   double clock() const { return frequency > least ? frequency : least; }
   /// That of a block, which is damped no more than the model is: the fast motion of a block beside
@@ -44,10 +43,9 @@ struct Relaxation {
                                     ///< slides away; empty: none
   std::vector<double> strength_from, strength_to;  ///< [laws] strength factors while strength
                                                    ///< changes gradually
-  /// Elastic initialisation: at the start joints have a thousand times their strength while the
-  /// first loads are applied, so that small blocks follow large ones as these settle, and in later
-  /// stages bonds have; then the model settles, joints may open, and the strength is reduced to its
-  /// own.
+  /// Elastic initialisation: while the first loads are applied joints have a thousand times their
+  /// strength, so that small blocks follow large ones as these settle; in later stages only bonds
+  /// have it. Then the model settles, joints may open, and strength is reduced to that of the laws.
   enum class Hold : std::uint8_t { over, loading, settling } hold = Hold::over;
   bool holds_together = false;  ///< joints do not open meanwhile
 };
@@ -60,13 +58,13 @@ void mass_damping_of_blocks(const Simulation& sim, std::vector<double>& damping)
 
 /// Applies gradually, over about a period of the motion, what begins or ends to act now, and this
 /// change of strength; at the very start also the weight, where the ground has no initial stress.
-/// It is an elastic initialisation (Relaxation::Hold): once the model has settled under the loads
-/// the strength is reduced gradually, too, to what it changes to. Used with adaptive damping.
-/// `more`: something else is to change with Loads::gradual, too.
+/// At the start this is an elastic initialisation (Relaxation::Hold): once the model has settled
+/// under the loads the strength is reduced gradually, too, to what it changes to. Used with
+/// adaptive damping. `more`: something else is to change with Loads::gradual, too.
 void begin_gradually(Simulation& sim, const std::vector<double>& strength_factors,
                      bool more = false);
 
-/// Brings joints that hold to their strength at once.
+/// Ends the elastic initialisation: joints have the strength of their laws at once.
 void end_hold(Simulation& sim);
 
 /// Ends gradual changes where they are, as where a model fails on the way, and a hold.

@@ -23,7 +23,8 @@ struct Softness {
   double factor, strongest;
 };
 constexpr Softness bouncing{60.0, 5.2}, dull{150.0, 40.0};
-/// With linear dashpots as a limit that no impact reaches, but that holds the step up little.
+/// Capped by linear dashpots of the fraction sqrt(rebound): no impact reaches the cap, and it
+/// shortens the step little.
 LawDashpots dashpots_of(double spring, double rebound) {
   return {std::sqrt(rebound), 0.0, spring, rebound};
 }
@@ -96,10 +97,11 @@ double spring_of(const Reference& reference, const JointLaw& law, double spring)
 double restitution_of(const Model& model, const Reference& reference, const JointLaw& law,
                       const LawDashpots& dashpots) {
   const double mass = reference.rock.density * reference.size * reference.size;
-  const double period = std::sqrt(mass / (2.0 * spring_of(reference, law, dashpots.spring)));
-  const double speed = 1e-4 * reference.size / period;
+  const double inverse_frequency =
+      std::sqrt(mass / (2.0 * spring_of(reference, law, dashpots.spring)));
+  const double speed = 1e-4 * reference.size / inverse_frequency;
   constexpr double lasts = 8.0;  // periods over 2 pi, and more where the dashpot slows it
-  const double duration = lasts * (1.0 + dashpots.damping) * period;
+  const double duration = lasts * (1.0 + dashpots.damping) * inverse_frequency;
   Result<Simulation> made = Simulation::create(flat_impact(model, reference, law, dashpots, speed));
   if (!made.ok()) return 0.0;
   Simulation& sim = made.value();
@@ -107,7 +109,7 @@ double restitution_of(const Model& model, const Reference& reference, const Join
   while (sim.motion.state.time < duration && !step(sim)) {
   }
   const std::size_t i = sim.scene->blocks.fixed[0] != 0 ? 1 : 0;
-  return std::max(centroid(sim.motion.state.vx, sim.motion.state.vy, i).y / speed, 0.0);
+  return std::max(centroid(sim.motion.state.velocity, i).y / speed, 0.0);
 }
 
 Fault out_of_reach(const JointLaw& law, const Reference& reference, bool more, double reached) {

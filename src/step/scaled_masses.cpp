@@ -69,16 +69,8 @@ void raise_masses(Simulation& sim) {
     sim.accounts.external_work += total_energy(sim) - energy;
     return;
   }
-  for (Nodes* v : {&state.vx, &state.vy}) {
-    for (std::vector<double>& values : *v) {
-      for (std::size_t i = 0; i < blocks.size(); ++i) values[i] /= factor[i];
-    }
-  }
-  for (std::size_t i = 0; i < blocks.size(); ++i) {
-    const BlockModes modes = blocks.modes(i);
-    for (std::size_t a = 0; a < modes.count; ++a)
-      state.bend_rate.set(modes[a], (1.0 / factor[i]) * state.bend_rate[modes[a]]);
-  }
+  for (std::size_t i = 0; i < blocks.size(); ++i)
+    store(vector_of(blocks, state.velocity, i) / factor[i], blocks, state.velocity, i);
   sim.accounts.step_change_energy += total_energy(sim) - energy;
 }
 

@@ -37,6 +37,13 @@ struct Simulation {
   static Result<Simulation> create(Model model, BlockOrder order = BlockOrder::as_cut);
 };
 
+/// The rock of its blocks, evaluated at the end of the last step.
+inline RockInside rock_of(const Simulation& sim) {
+  const bool meshed = sim.scene->blocks.meshes.any();
+  return {&sim.motion.locked, meshed ? &sim.scene->zones : nullptr,
+          meshed ? &sim.motion.zones : nullptr};
+}
+
 /// Whether its method is the explicit one (solver.method = "edda").
 inline bool is_explicit(const Simulation& sim) {
   return sim.stepper->conditionally_stable;

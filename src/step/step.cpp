@@ -39,8 +39,8 @@ void observe(const Simulation& sim, Instant& at) {
   at.state = motion.state;
   at.forces = motion.forces;
   gather_forces(at.forces, sim.scene->blocks, motion.state, motion.pose, motion.on_contacts,
-                sim.attached.springs, sim.scene->model.gravity, acting(sim), motion.locked);
-  sim.stepper->look(sim, at);
+                sim.attached.springs, sim.scene->model.gravity, acting(sim), rock_of(sim));
+  sim.stepper->complete_instant(sim, at);
 }
 
 void finish_step(Simulation& sim) {
@@ -56,6 +56,7 @@ void finish_step(Simulation& sim) {
       accounts.steps.smallest == 0.0 ? h : std::min(accounts.steps.smallest, h);
   accounts.steps.largest = std::max(accounts.steps.largest, h);
   accounts.steps.sum += h;
+  evaluate_zones(sim.scene->zones, sim.scene->blocks, state, h, sim.motion.zones);
 }
 
 std::optional<Failure> inspect(const Simulation& sim) {

@@ -44,12 +44,13 @@ StiffnessInputs stiffness_inputs(const Simulation& sim, const BlockSet& blocks) 
           .springs = sim.attached.springs,
           .laws = sim.motion.laws,
           .damping = sim.motion.damping,
-          .bolts = &sim.attached.bolts};
+          .bolts = &sim.attached.bolts,
+          .zones = &sim.scene->zones};
 }
 
 void set_viscosity(Simulation& sim) {
   fill_viscosity(sim.motion.masses, sim.scene->blocks, sim.motion.damping);
-  sim.leapfrog.strain_damping.step = 0.0;
+  sim.leapfrog.damping.strain.step = 0.0;
 }
 
 }  // namespace edda

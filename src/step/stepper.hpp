@@ -24,7 +24,7 @@ struct Stepper {
   /// One step.
   std::optional<Failure> (*step)(Simulation&);
   /// The complete state at the end of the last step.
-  void (*look)(const Simulation&, Instant&);
+  void (*complete_instant)(const Simulation&, Instant&);
   /// Distance that block i, of which the forces have this resultant (N), would still move against
   /// the stiffness of the motion, m; infinite: unknown.
   double (*remaining_travel)(const Simulation&, std::size_t i, double force);

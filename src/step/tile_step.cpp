@@ -24,7 +24,7 @@ FacesInStep faces_in_step(Simulation& sim, double step, bool skips = true) {
           face_scene(sim),
           step,
           sim.control.last_displacement,
-          {motion.on_contacts.x, motion.on_contacts.y, motion.on_contacts.modes},
+          motion.on_contacts,
           false,
           skips};
 }
@@ -70,13 +70,13 @@ void place_in_tiles(Simulation& sim) {
   begin_step(motion.contacts, motion.tiled.tiles, sim.scene->blocks, motion.pose, motion.laws);
   FacesInStep step = faces_in_step(sim, motion.state.step);
   step.sweep();
-  step.decide_and_evaluate(step.asking());
+  step.decide_and_evaluate(step.undecided());
 }
 
-void evaluate_at_rest(Simulation& sim, double step) {
+void reevaluate_at_n(Simulation& sim, double step) {
   FacesInStep at_rest = faces_in_step(sim, step, false);
   at_rest.sweep();
-  at_rest.decide_and_evaluate(at_rest.asking());
+  at_rest.decide_and_evaluate(at_rest.undecided());
 }
 
 void switch_in_tiles(Simulation& sim, const StepTaken& taken) {

@@ -37,7 +37,7 @@ void switch_in_tiles(Simulation& sim, const StepTaken& taken);
 
 /// Evaluates the faces at n again, from their states at n - 1: memory, forces on the blocks. step:
 /// between, s.
-void evaluate_at_rest(Simulation& sim, double step);
+void reevaluate_at_n(Simulation& sim, double step);
 
 /// Makes a new list of the faces.
 void search_in_tiles(Simulation& sim, const Reach& reach);

@@ -21,7 +21,8 @@ void add_criterion(Json& j, const FosResult& r) {
   j.pair("text",
          "a trial fails where a set of blocks moves by more than fails_part of its size as seen "
          "from the blocks beside it (little_part at factors at which rigid blocks have no "
-         "equilibrium), or a corner by more than fails_displacement where that is given; it holds "
+         "equilibrium), a part of a meshed block by three times what its rock strains until it "
+         "yields, or a corner by more than fails_displacement where that is given; it holds "
          "where no block would move by more than rest_part of its size within 5 sqrt(size/g)");
   j.close();
 }
@@ -30,7 +31,7 @@ void add_mechanism(Json& j, const Mechanism& m) {
   j.key("mechanism").open_object().pair("text", m.text);
   j.pair("blocks", m.blocks.size()).pair("joints", m.joints.size());
   j.pair("sliding", m.sliding).pair("toppling", m.toppling).pair("falling", m.falling);
-  j.pair("hinging", m.hinging);
+  j.pair("hinging", m.hinging).pair("yielding", m.yielding);
   j.pair("brittle_length", m.brittle_length);
   j.pair("cohesion_lost_length", m.cohesion_lost_length).close();
 }

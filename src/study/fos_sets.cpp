@@ -31,12 +31,10 @@ FosResult found_between(const Model& model, const Fos& fos, const FosBracket& br
 
 Simulation at_start(const Simulation& rest, const Simulation& later) {
   Simulation start = rest;
-  start.motion.state.x = later.motion.state.from_x;
-  start.motion.state.y = later.motion.state.from_y;
-  start.motion.state.bend = later.motion.state.from_bend;
+  start.motion.state.position = later.motion.state.reference;
   for (std::size_t i = 0; i < start.scene->blocks.size(); ++i) {
-    place_vertices(start.scene->blocks, start.motion.state.x, start.motion.state.y,
-                   start.motion.state.bend, i, start.motion.pose.x, start.motion.pose.y);
+    place_vertices(start.scene->blocks, start.motion.state.position, i, start.motion.pose.x,
+                   start.motion.pose.y);
   }
   return start;
 }
@@ -96,6 +94,13 @@ void find_wide(const Model& model, const Fos& fos, FosStart start, const FosOpti
   if (!start.as_drawn || trial == nullptr || !std::isfinite(usual) || usual <= moved_little ||
       trial->part > usual || trial->end != TrialEnd::fails)
     return;
+  const Scene& scene = *start.sim.scene;
+  const auto may_yield = [&](Id i) {
+    return scene.blocks.is_meshed(i) &&
+           has_strength(scene.zones.material[static_cast<std::size_t>(scene.blocks.material[i])]);
+  };
+  if (std::any_of(trial->failed.begin(), trial->failed.end(), may_yield))
+    return;  // rock that yields does not take up its strength by moving
   start.wide = true;
   if (options.say) options.say("  where blocks may move by a tenth of their size");
   const FosResult wide = found_between(

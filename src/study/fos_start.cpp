@@ -290,7 +290,7 @@ Result<FosStart> start_trials(const Model& model, const Fos& fos, const FosOptio
   LimitOptions limit;
   limit.threads = options.threads;
   limit.stop = options.stop;
-  limit.say = options.say;
+  limit.say = options.progress;  // by the clock, not by what is found
   s.rigid = rigid_limit(model, fos, s.sim.scene->blocks.size(), limit);
   Pace pace;
   Trial trial = run_trial(as_given, plan_at(given, s), s.given, [&] {

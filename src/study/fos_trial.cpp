@@ -155,9 +155,7 @@ class Run {
                      return m.largest < n.largest;
                    })->id;
     State& state = sim_.motion.state;
-    found->moved.motion.state.from_x = state.x;
-    found->moved.motion.state.from_y = state.y;
-    found->moved.motion.state.from_bend = state.bend;
+    found->moved.motion.state.reference = state.position;
     state = std::move(found->moved.motion.state);
     sim_.motion.pose = std::move(found->moved.motion.pose);
     trial_.proof = std::move(found->mechanism);

@@ -300,7 +300,7 @@ std::optional<std::size_t> generation_at(const Simulation& sim,
   for (std::size_t i = 0; i < b.size(); ++i) {
     const Vec2 arm = place - Vec2{b.centroid_x[i], b.centroid_y[i]};
     if (sim.motion.state.alive[i] == 0 || norm(arm) > b.radius[i]) continue;
-    if (inside_of(b, sim.motion.pose, place, i).depth < 0.0) continue;
+    if (depth_inside(b, sim.motion.pose, place, i) < 0.0) continue;
     if (!found || *found == 0 || (of_block[i] > 0 && of_block[i] < *found)) found = of_block[i];
   }
   return found;

@@ -17,15 +17,12 @@ Simulation moved_by(const Simulation& drawn, const RigidBlocks& rigid,
   State& state = moved.motion.state;
   for (std::size_t r = 0; r < motion.size(); ++r) {
     for (const Id i : rigid.blocks[r]) {
-      NodeVectors x = vectors_of(state.x, state.y, i);
       // A rotation, not its first order, so that blocks keep their shape.
-      const double c = std::cos(far * motion[r].spin), s = std::sin(far * motion[r].spin);
-      for (Vec2& of_node : x) {
-        const Vec2 arm = of_node - rigid.centroid[r];
-        of_node = rigid.centroid[r] + far * motion[r].velocity + c * arm + s * perp(arm);
-      }
-      store(x, state.x, state.y, i);
-      place_vertices(moved.scene->blocks, state.x, state.y, state.bend, i, moved.motion.pose.x,
+      const BodyVector turned =
+          rigid_positions(vector_of(moved.scene->blocks, state.position, i), rigid.centroid[r],
+                          far * motion[r].velocity, far * motion[r].spin);
+      store(turned, moved.scene->blocks, state.position, i);
+      place_vertices(moved.scene->blocks, state.position, i, moved.motion.pose.x,
                      moved.motion.pose.y);
     }
   }

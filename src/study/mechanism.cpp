@@ -10,6 +10,7 @@
 #include <set>
 
 #include "base/text.hpp"
+#include "blocks/shape_change.hpp"
 #include "results/columns.hpp"
 #include "run/stages.hpp"
 #include "step/faces_now.hpp"
@@ -23,10 +24,8 @@ namespace {
 constexpr double mostly_rotation = 0.5;  // lower limit of rotation_part
 
 double turned(const Simulation& before, const Simulation& after, std::size_t i) {
-  const Rotation a =
-      rotation(deformation(before.scene->blocks, before.motion.state.x, before.motion.state.y, i));
-  const Rotation b =
-      rotation(deformation(after.scene->blocks, after.motion.state.x, after.motion.state.y, i));
+  const Rotation a = rotation(deformation(before.scene->blocks, before.motion.state.position, i));
+  const Rotation b = rotation(deformation(after.scene->blocks, after.motion.state.position, i));
   return std::atan2(a.c * b.s - a.s * b.c, a.c * b.c + a.s * b.s);
 }
 
@@ -37,6 +36,16 @@ bool overturns(const MovingBlock& m, Vec2 gravity) {
   // over the rotation. Times the rotation here, which preserves the direction.
   const Vec2 arm = m.rotation * Vec2{m.displacement.y, -m.displacement.x};
   return dot(arm, gravity) <= 0.0;
+}
+
+/// Whether a meshed block has moved less as a whole than its shape has changed, or not much more.
+bool deforms(const Simulation& before, const Simulation& after, const MovingBlock& m) {
+  const BlockSet& b = before.scene->blocks;
+  if (!b.is_meshed(m.id)) return false;
+  constexpr double part = 0.25;
+  const std::vector<double> change =
+      shape_change(b, before.motion.state.position, after.motion.state.position, m.id);
+  return *std::max_element(change.begin(), change.end()) > part * m.largest;
 }
 
 /// [nb] 1: the block is in contact, or within `gap` of another one.
@@ -54,10 +63,10 @@ std::vector<std::uint8_t> next_to_something(const Simulation& s, double gap) {
 MovingBlock motion_of(const Simulation& before, const Simulation& after, std::size_t i) {
   MovingBlock m;
   m.id = static_cast<Id>(i);
-  const Vec2 at = centroid(before.motion.state.x, before.motion.state.y, i);
+  const Vec2 at = centroid(before.motion.state.position, i);
   const Vec2 ground = after.attached.ground.shift - before.attached.ground.shift;
   m.place = at + before.scene->blocks.origin;
-  m.displacement = centroid(after.motion.state.x, after.motion.state.y, i) - at - ground;
+  m.displacement = centroid(after.motion.state.position, i) - at - ground;
   for (Id v = before.scene->blocks.vertex_begin[i]; v < before.scene->blocks.vertex_begin[i + 1];
        ++v) {
     const Vec2 u = Vec2{after.motion.pose.x[v], after.motion.pose.y[v]} -
@@ -169,25 +178,28 @@ std::string hinges_of(const Mechanism& m) {
 }
 
 std::string sentence(const Mechanism& m) {
-  std::size_t count[4] = {0, 0, 0, 0};
+  std::size_t count[5] = {0, 0, 0, 0, 0};
   for (const MovingBlock& b : m.blocks) ++count[static_cast<int>(b.motion)];
-  const double parts[] = {m.sliding, m.toppling, m.falling, m.hinging};
+  const double parts[] = {m.sliding, m.toppling, m.falling, m.hinging, m.yielding};
   constexpr double most = 0.75;
   const auto largest = std::max_element(std::begin(parts), std::end(parts));
   const bool mixed = *largest < most;
   const auto kind = static_cast<FailureMode>(largest - std::begin(parts));
   const std::string along = slipping_joints(m);
-  constexpr const char* kinds[] = {"sliding", "toppling", "falling", "hinging"};
+  constexpr const char* kinds[] = {"sliding", "toppling", "falling", "hinging", "yielding"};
   std::string text = mixed ? "mixed" : kinds[static_cast<int>(kind)];
   if (!mixed && kind == FailureMode::slides && !along.empty()) text += " along " + along;
   text += ": ";
   if (!mixed && kind == FailureMode::hinges) text += hinges_of(m) + ", ";
   if (!mixed) text += counted(count[static_cast<int>(kind)], "block");
   bool first = mixed;
-  constexpr const char* verbs[][2] = {
-      {"slides", "slide"}, {"topples", "topple"}, {"falls", "fall"}, {"hinges", "hinge"}};
-  for (const FailureMode other :
-       {FailureMode::slides, FailureMode::topples, FailureMode::falls, FailureMode::hinges}) {
+  constexpr const char* verbs[][2] = {{"slides", "slide"},
+                                      {"topples", "topple"},
+                                      {"falls", "fall"},
+                                      {"hinges", "hinge"},
+                                      {"yields", "yield"}};
+  for (const FailureMode other : {FailureMode::slides, FailureMode::topples, FailureMode::falls,
+                                  FailureMode::hinges, FailureMode::yields}) {
     const std::size_t n = count[static_cast<int>(other)];
     if (n == 0 || (!mixed && other == kind)) continue;
     text += first ? counted(n, "block") : fmt::format(", {}", n);
@@ -229,14 +241,15 @@ Mechanism mechanism_of(const Simulation& before, const Simulation& after, double
   for (const MovingBlock& b : m.blocks) moves[b.id] = 1;
   const std::vector<std::uint8_t> hinged =
       between_hinges(pieces(before, moves, m.joints), m.joints);
-  double* const parts[] = {&m.sliding, &m.toppling, &m.falling, &m.hinging};
+  double* const parts[] = {&m.sliding, &m.toppling, &m.falling, &m.hinging, &m.yielding};
   for (MovingBlock& b : m.blocks) {
     const bool topples =
         b.rotation_part >= mostly_rotation && overturns(b, before.scene->model.gravity);
-    b.motion = !near[b.id]    ? FailureMode::falls
-               : hinged[b.id] ? FailureMode::hinges
-               : topples      ? FailureMode::topples
-                              : FailureMode::slides;
+    b.motion = deforms(before, after, b) ? FailureMode::yields
+               : !near[b.id]             ? FailureMode::falls
+               : hinged[b.id]            ? FailureMode::hinges
+               : topples                 ? FailureMode::topples
+                                         : FailureMode::slides;
     const double mass = before.scene->blocks.mass[b.id];
     weight += mass;
     *parts[static_cast<int>(b.motion)] += mass;

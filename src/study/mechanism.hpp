@@ -10,10 +10,10 @@
 
 namespace edda {
 
-enum class FailureMode { slides, topples, falls, hinges };
+enum class FailureMode { slides, topples, falls, hinges, yields };
 
 constexpr std::string_view motion_name(FailureMode m) {
-  constexpr std::string_view names[] = {"slides", "topples", "falls", "hinges"};
+  constexpr std::string_view names[] = {"slides", "topples", "falls", "hinges", "yields"};
   return names[static_cast<int>(m)];
 }
 
@@ -62,10 +62,10 @@ struct MovingJoint {
 };
 
 struct Mechanism {
-  std::vector<MovingBlock> blocks;                                     ///< by id
-  std::vector<MovingJoint> joints;                                     ///< by blocks
-  double sliding = 0.0, toppling = 0.0, falling = 0.0, hinging = 0.0;  ///< fractions of the weight
-                                                                       ///< that moves
+  std::vector<MovingBlock> blocks;  ///< by id
+  std::vector<MovingJoint> joints;  ///< by blocks
+  double sliding = 0.0, toppling = 0.0, falling = 0.0, hinging = 0.0,
+         yielding = 0.0;              ///< fractions of the weight that moves
   double brittle_length = 0.0;        ///< m of its joints whose law loses cohesion at failure
   double cohesion_lost_length = 0.0;  ///< m of these joints without cohesion before the failure:
                                       ///< lost, or closed after the start
@@ -81,7 +81,8 @@ struct Mechanism {
 /// furthest vertex by at least half of the displacement of the block itself: rotation_part >= 1/2
 /// (about 1 for a block that rotates about one of its vertices, 0 for one that slides); else it
 /// slides. A block that is no longer within a tenth of the largest displacement of another block
-/// falls.
+/// falls. A meshed block yields whose shape changes by a quarter of its largest
+/// displacement or more.
 Mechanism mechanism_of(const Simulation& before, const Simulation& after, double moving = 0.1);
 /// The same, where the state `apart` says which blocks are no longer within that distance.
 Mechanism mechanism_of(const Simulation& before, const Simulation& after, double moving,

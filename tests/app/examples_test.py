@@ -140,6 +140,33 @@ class Examples(Program):
         _, folder = self.ran("dam", "--set", "joints.rock.friction_angle=35", out="rough")
         self.assertLess(self.moved(folder, "crest")[0], 0.005)
 
+    def test_squeezing_is_held_back_by_bolts(self):
+        _, folder = self.ran("squeezing")
+        _, bare = self.ran("squeezing", "--set", "bolt_pattern=[]", "--set", "stage.support.install=[]", out="bare")
+        face, last = self.rows(folder / "stages.csv")
+        without = self.rows(bare / "stages.csv")[-1]
+        for closure in ("span.convergence", "height.convergence"):
+            self.assertLess(3 * float(face[closure]), float(last[closure]))
+            self.assertAlmostEqual(float(last[closure]) / float(without[closure]), 0.87, delta=0.03)
+
+    def loads(self, folder):
+        return [-float(row["load.fy"]) for row in self.rows(folder / "reactions.csv")]
+
+    def test_pillar_spalls(self):
+        _, folder = self.ran("pillar")
+        loads = self.loads(folder)
+        self.assertGreater(max(loads) / 6, 20e6)    # N/m2
+        self.assertLess(loads[-1], 0.85 * max(loads))
+
+    def test_footing_breaks_through(self):
+        _, folder = self.ran("footing")
+        _, intact = self.ran("footing", "--set", "joint_set=[]", out="intact")
+        self.assertTrue(0.5 < self.loads(folder)[-1] / self.loads(intact)[-1] < 0.8)
+
+    def test_clay_slope_is_as_safe_as_taylor_says(self):
+        factor, _ = self.factor("clay-slope")
+        self.assertAlmostEqual(factor / 1.199, 1, delta=0.02)
+
     def test_rockfall_stops(self):
         summary, folder = self.ran("rockfall")
         self.assertLess(summary["energy"]["kinetic"], 1.0)

@@ -5,9 +5,12 @@
 #include <numbers>
 
 #include "attachments/bolted_blocks.hpp"
+#include "attachments/stored_in_bolts.hpp"
 
 namespace edda::bolt_chain_test {
 namespace {
+
+using testing::stored;
 
 using test::Bolted;
 using test::grouted;
@@ -38,31 +41,20 @@ Bolt with_ends(Vec2 from, Vec2 to) {
 }
 
 std::array<Vec2, 3> on_block(const Bolted& m, std::size_t i) {
-  std::array<Vec2, 3> f{};
-  add_bolts(f, m.bolts, i);
-  return f;
+  BlockForces f{m.blocks, i};
+  add_bolts(f, m.bolts);
+  return f.sum.nodes;
 }
 Vec2 whole(const std::array<Vec2, 3>& f) {
   return f[0] + f[1] + f[2];
 }
 
-/// sum of F^2/2k.
-double stored(const Bolts& b) {
-  double sum = 0.0;
-  for (const BoltSprings* s : {&b.bonds, &b.bars, &b.dowels}) {
-    for (std::size_t k = 0; k < b.size(); ++k) {
-      if (s->stiffness[k] > 0.0) sum += 0.5 * s->force[k] * s->force[k] / s->stiffness[k];
-    }
-  }
-  return sum;
-}
-
 void shift_upper(Bolted& m, Vec2 by) {
   for (std::size_t k = 0; k < 3; ++k) {
-    m.state.x[k][1] += by.x;
-    m.state.y[k][1] += by.y;
+    m.state.position.x[k][1] += by.x;
+    m.state.position.y[k][1] += by.y;
   }
-  update_bolts(m.bolts, m.state);
+  update_bolts(m.bolts, m.blocks, m.state);
 }
 
 /// Whatever way the blocks have turned and deformed; and they have neither resultant nor moment.
@@ -72,13 +64,14 @@ void expect_gradients(Bolt bolt) {
   const double angle[2] = {0.5, 0.53};
   for (std::size_t i = 0; i < 2; ++i) {
     for (std::size_t k = 0; k < 3; ++k) {
-      const Vec2 p = rotated({1.001 * m.state.x[k][i], m.state.y[k][i]}, angle[i]);
-      m.state.x[k][i] = p.x + 0.01 * static_cast<double>(i);
-      m.state.y[k][i] = p.y + 0.02 * static_cast<double>(i);
+      const Vec2 p =
+          rotated({1.001 * m.state.position.x[k][i], m.state.position.y[k][i]}, angle[i]);
+      m.state.position.x[k][i] = p.x + 0.01 * static_cast<double>(i);
+      m.state.position.y[k][i] = p.y + 0.02 * static_cast<double>(i);
     }
   }
   const auto energy = [&] {
-    update_bolts(m.bolts, m.state);
+    update_bolts(m.bolts, m.blocks, m.state);
     return stored(m.bolts);
   };
   energy();
@@ -87,7 +80,7 @@ void expect_gradients(Bolt bolt) {
   for (std::size_t i = 0; i < 2; ++i) {
     for (std::size_t k = 0; k < 3; ++k) {
       scale = std::max(scale, norm(f[i][k]));
-      torque += cross({m.state.x[k][i], m.state.y[k][i]}, f[i][k]);
+      torque += cross({m.state.position.x[k][i], m.state.position.y[k][i]}, f[i][k]);
     }
   }
   EXPECT_GT(scale, 1e4);
@@ -96,14 +89,14 @@ void expect_gradients(Bolt bolt) {
   const double d = 1e-6;
   for (std::size_t i = 0; i < 2; ++i) {
     for (std::size_t k = 0; k < 3; ++k) {
-      for (auto* place : {&m.state.x[k][i], &m.state.y[k][i]}) {
+      for (auto* place : {&m.state.position.x[k][i], &m.state.position.y[k][i]}) {
         const double at = *place;
         *place = at + d;
         const double more = energy();
         *place = at - d;
         const double less = energy();
         *place = at;
-        const double force = place == &m.state.x[k][i] ? f[i][k].x : f[i][k].y;
+        const double force = place == &m.state.position.x[k][i] ? f[i][k].x : f[i][k].y;
         EXPECT_NEAR((less - more) / (2.0 * d), force, 2e-5 * scale);
       }
     }

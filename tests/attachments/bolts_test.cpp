@@ -30,7 +30,7 @@ TEST(Bolts, SitInTheBlocksTheyGoThrough) {
               0.8 + 1.0 + (low - 2.5) + (3.9 - high), 1e-9);
   std::vector<double> crossings, dowels;
   for (std::size_t k = 0; k + 1 < b.size(); ++k) {
-    const Vec2 p = node_place(b, m.state, k) + m.blocks.origin;
+    const Vec2 p = node_place(b, m.blocks, m.state, k) + m.blocks.origin;
     EXPECT_NEAR(p.x, 1.0, 1e-12);
     EXPECT_NEAR(p.y, 0.2 + b.distance[k], 1e-12);
     EXPECT_NEAR(b.distance[k + 1] - b.distance[k], b.length[k], 1e-12);
@@ -55,17 +55,18 @@ TEST(Bolts, GoInWhereBlocksAreNow) {
   m.build();
   for (std::size_t i = 0; i < 2; ++i) {
     for (std::size_t k = 0; k < 3; ++k) {
-      const Vec2 p = rotated({1.01 * m.state.x[k][i], m.state.y[k][i]}, i == 0 ? 0.1 : 0.3);
-      m.state.x[k][i] = p.x + 0.2;
-      m.state.y[k][i] = p.y;
+      const Vec2 p =
+          rotated({1.01 * m.state.position.x[k][i], m.state.position.y[k][i]}, i == 0 ? 0.1 : 0.3);
+      m.state.position.x[k][i] = p.x + 0.2;
+      m.state.position.y[k][i] = p.y;
     }
   }
   for (Id v = 0; v < m.blocks.vertex_count(); ++v) {
-    const Vec2 p = vertex_at(m.blocks, m.state.x, m.state.y, v);
+    const Vec2 p = corner_at(m.blocks, m.state.position, v);
     m.blocks.vertex_x[v] = p.x;
     m.blocks.vertex_y[v] = p.y;
   }
-  const Vec2 from = centroid(m.state.x, m.state.y, 0), to = centroid(m.state.x, m.state.y, 1);
+  const Vec2 from = centroid(m.state.position, 0), to = centroid(m.state.position, 1);
   m.model.bolts = {grouted(m.blocks.origin + from + Vec2{0.1, 0.2}, m.blocks.origin + to)};
   m.attach();
   ASSERT_TRUE(m.faults.empty()) << to_string(m.faults[0]);
@@ -107,18 +108,30 @@ TEST(Bolts, PatternStandsRoundItsOpening) {
 }
 
 /// Of a whole edge that moves as one: rho c L along and across, however the edge lies; half of it
-/// where the boundary covers half.
-TEST(Dashpots, HaveTheImpedanceOfTheRock) {
+/// where the boundary covers half. In a meshed block all act on its corners.
+void expect_impedance_of_rock(bool meshed) {
   Bolted m;
-  m.add({{0, 0}, {4, 3}, {1, 7}});
+  if (meshed) {
+    m.model.deformation = BlockDeformation::zones;
+    m.model.zones = ZoneInputs{0.9, {}, {}};
+  }
+  m.add({{0, 0}, {1, 0.75}, {4, 3}, {1, 7}});
   m.model.thickness = 2.0;
   for (const double part : {1.0, 0.5}) {
     m.model.boundaries = {test::boundary_along(BoundaryType::viscous, {0, 0}, part * Vec2{4, 3})};
     if (part == 1.0) m.build();
     const Result<Dashpots> found = attach_dashpots(m.model, m.blocks);
     ASSERT_TRUE(found.ok());
-    double xx = 0.0, yy = 0.0, xy = 0.0;
+    double xx = 0.0, yy = 0.0, xy = 0.0, moment = 0.0;
     for (const Dashpot& d : found.value().points) {
+      EXPECT_EQ(d.node != no_id, meshed);
+      if (meshed) {
+        EXPECT_EQ(d.weight[1], m.blocks.weight[1][d.node]);
+        EXPECT_NEAR(cross(d.middle + m.blocks.origin, {0.8, 0.6}), 0.0, 1e-9);
+      }
+      moment +=
+          d.length * dot(weighted(d.weight, m.blocks.node_x, m.blocks.node_y, 0) + m.blocks.origin,
+                         {0.8, 0.6});
       xx += d.cxx;
       yy += d.cyy;
       xy += d.cxy;
@@ -127,10 +140,15 @@ TEST(Dashpots, HaveTheImpedanceOfTheRock) {
     const double cn = std::sqrt(2600.0 * (lambda + 2.0 * mu)) * length,
                  ct = std::sqrt(2600.0 * mu) * length;
     const Vec2 t{0.8, 0.6}, n{0.6, -0.8};
+    EXPECT_NEAR(moment, 0.5 * std::pow(5.0 * part, 2), 1e-9);
     EXPECT_NEAR(xx, cn * n.x * n.x + ct * t.x * t.x, 1e-9 * cn);
     EXPECT_NEAR(yy, cn * n.y * n.y + ct * t.y * t.y, 1e-9 * cn);
     EXPECT_NEAR(xy, cn * n.x * n.y + ct * t.x * t.y, 1e-9 * cn);
   }
+}
+
+TEST(Dashpots, HaveTheImpedanceOfTheRock) {
+  for (const bool meshed : {false, true}) expect_impedance_of_rock(meshed);
 }
 
 }  // namespace

@@ -33,7 +33,7 @@ struct Loaded : test::DrawnBlocks {
                double time = 0.0) const {
     BlockForces all{blocks, i};
     add_loads(all, loads_at(model, loads, time), x, y);
-    const NodeVectors& f = all.nodes;
+    const NodeVectors& f = all.sum.nodes;
     // Nodes move with the vertices: as the block is drawn here it is not deformed.
     Resultant r{f[0] + f[1] + f[2], 0.0};
     for (std::size_t k = 0; k < 3; ++k) {

@@ -94,18 +94,22 @@ TEST(Ground, CarriesHeldBlocksAlong) {
   test::DrawnBlocks m;
   m.add({{0, 0}, {1, 0}, {1, 1}, {0, 1}}, true);
   m.build_all();
-  Nodes x = m.blocks.node_x, y = m.blocks.node_y;
-  place_fixed(m.blocks, find_ground(m.model, m.blocks), {0.3, -0.2}, x, y);
+  BodyVectors at{m.blocks.node_x, m.blocks.node_y, {}};
+  place_fixed(m.blocks, find_ground(m.model, m.blocks), {0.3, -0.2}, at);
   for (std::size_t k = 0; k < 3; ++k) {
-    EXPECT_EQ(x[k][0], m.blocks.node_x[k][0] + 0.3);
-    EXPECT_EQ(y[k][0], m.blocks.node_y[k][0] - 0.2);
+    EXPECT_EQ(at.x[k][0], m.blocks.node_x[k][0] + 0.3);
+    EXPECT_EQ(at.y[k][0], m.blocks.node_y[k][0] - 0.2);
   }
 }
 
 /// As high as the side beside which it stands.
-TEST(FreeFieldColumn, StandsBesideItsWholeSide) {
+void expect_whole_side(bool meshed) {
   test::DrawnBlocks m;
-  m.add({{0, 0}, {1, 0}, {1, 2}, {0, 2}});
+  if (meshed) {
+    m.model.deformation = BlockDeformation::zones;
+    m.model.zones = ZoneInputs{0.5, {}, {}};
+  }
+  m.add({{0, 0}, {1, 0}, {1, 2}, {0, 2}, {0, 1.5}, {0, 1}, {0, 0.5}});
   Boundary side;
   side.name = "b";
   side.type = BoundaryType::free_field;
@@ -119,6 +123,18 @@ TEST(FreeFieldColumn, StandsBesideItsWholeSide) {
   EXPECT_NEAR(c.bottom + m.blocks.origin.y, 0.0, 1e-12);
   EXPECT_NEAR(c.cell * static_cast<double>(c.density.size()), 2.0, 1e-12);
   EXPECT_EQ(c.outward, -1.0);
+  EXPECT_NEAR(c.cell, 0.5, 1e-12);
+  double face = 0.0, moment = 0.0;
+  for (std::size_t p = 0; p < field.face.size(); ++p) {
+    face += field.face[p];
+    moment += field.face[p] * (field.middle[p] + m.blocks.origin.y);
+  }
+  EXPECT_NEAR(face, 2.0, 1e-12);
+  EXPECT_NEAR(moment, 2.0, 1e-12);
+}
+
+TEST(FreeFieldColumn, StandsBesideItsWholeSide) {
+  for (const bool meshed : {false, true}) expect_whole_side(meshed);
 }
 
 }  // namespace

@@ -36,7 +36,7 @@ bool grows(Simulation sim, double step) {
     if (edda::step(sim)) return true;
   }
   constexpr double much = 1e-5;  // m/s
-  return norm(centroid(sim.motion.state.vx, sim.motion.state.vy, 1)) > much;
+  return norm(centroid(sim.motion.state.velocity, 1)) > much;
 }
 
 TEST(TrueStep, IsWhereMotionBeginsToGrow) {

@@ -4,11 +4,13 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <random>
 
 #include "attachments/drawn_blocks.hpp"
 #include "base/polygon.hpp"
 #include "blocks/bent_state.hpp"
-#include "blocks/mode_weights.hpp"
+#include "blocks/block_point.hpp"
+#include "blocks/edge_forces.hpp"
 
 namespace edda::bending_test {
 namespace {
@@ -77,12 +79,12 @@ struct OneBlock : DrawnBlocks {
     for (std::size_t a = 0; a < modes().count; ++a) {
       Vec2 sum;
       for (std::size_t v = 0; v < corners(); ++v) sum += (part(v) * modes().of(a, v)) * u[v];
-      state.bend.set(modes()[a], sum);
+      state.position.modes.set(modes()[a], sum);
     }
   }
   double stored() const {
-    const BentState q =
-        bent_state(blocks, state.bend, rotation(deformation(blocks, state.x, state.y, 0)), 0);
+    const BentState q = bent_state(blocks, state.position.modes,
+                                   rotation(deformation(blocks, state.position, 0)), 0);
     const ModesOfBlock g = elastic_stress(blocks, q, 0);
     double twice = 0.0;
     for (std::size_t a = 0; a < q.modes.count; ++a) twice += dot(q.s[a], g[a]);
@@ -166,16 +168,15 @@ TEST(Bending, MassesHaveTheCentroid) {
 TEST(Bending, UniformStressDoesNotBend) {
   for (const Shape& s : shapes()) {
     const OneBlock o(s.ring);
-    ModeVectors on;
-    on.assign(o.blocks.bending.modes(), 0.0);
+    BlockForces on{o.blocks, 0};
     for (Id v = 0; v < o.corners(); ++v) {
       const Vec2 u = o.blocks.vertex(o.blocks.next[v]) - o.blocks.vertex(v);
       const Vec2 n = outward_normal(u), f = 0.5 * Vec2{3.0 * n.x + 2.0 * n.y, 2.0 * n.x - n.y};
-      o.modes().spread(on, v, f);
-      o.modes().spread(on, o.blocks.next[v], f);
+      on.at_corner(v, f);
+      on.at_corner(o.blocks.next[v], f);
     }
     for (std::size_t a = 0; a < o.modes().count; ++a)
-      EXPECT_NEAR(norm(on[o.modes()[a]]), 0.0, 1e-12) << s.name;
+      EXPECT_NEAR(norm(on.sum.modes[a]), 0.0, 1e-12) << s.name;
   }
 }
 
@@ -240,7 +241,7 @@ TEST(Bending, StoresNoMoreThanPureBending) {
 TEST(Bending, OfASquareIsAThirdOfTheModulus) {
   OneBlock o({{0, 0}, {1, 0}, {1, 1}, {0, 1}});
   for (const Vec2 q : {Vec2{1, 0}, Vec2{0, 1}, Vec2{0.6, -0.8}}) {
-    o.state.bend.set(o.modes()[0], 1e-3 * q);
+    o.state.position.modes.set(o.modes()[0], 1e-3 * q);
     EXPECT_NEAR(o.stored(), 0.5e-6 * o.modulus() / 3.0, 1e-9 * o.modulus());
   }
 }
@@ -255,7 +256,7 @@ TEST(Bending, StiffnessIsPositive) {
       double most = 0.0;
       for (std::size_t a = 0; a < modes.count; ++a) {
         const Vec2 q{std::sin(3.0 * k + static_cast<double>(a)), std::cos(5.0 * k * k)};
-        o.state.bend.set(modes[a], q);
+        o.state.position.modes.set(modes[a], q);
         most += 0.5 * o.blocks.bending.stiffness[modes[a]] * dot(q, q);
       }
       EXPECT_GT(o.stored(), 0.0) << s.name;
@@ -322,17 +323,66 @@ TEST(ModeWeights, PointsFollowTheCorners) {
       const Id next = o.blocks.next[v];
       for (const double part : {0.0, 0.3, 0.5, 1.0}) {
         const Vec2 p = (1.0 - part) * o.blocks.vertex(v) + part * o.blocks.vertex(next);
-        const std::vector<double> weights = mode_weights(o.blocks, 0, p);
+        const auto weights = block_point(o.blocks, 0, p).modes;
         for (std::size_t a = 0; a < modes.count; ++a)
-          EXPECT_NEAR(weights[a], (1.0 - part) * modes.of(a, v) + part * modes.of(a, next), 1e-9)
+          EXPECT_NEAR(weights[a].second, (1.0 - part) * modes.of(a, v) + part * modes.of(a, next),
+                      1e-9)
               << s.name << ' ' << v << ' ' << part;
       }
       // A little within: no jump at the edge.
       const Vec2 middle = 0.5 * (o.blocks.vertex(v) + o.blocks.vertex(next));
       const Vec2 inward = perp(unit(o.blocks.vertex(next) - o.blocks.vertex(v)));
-      const std::vector<double> weights = mode_weights(o.blocks, 0, middle + 1e-5 * inward);
+      const auto weights = block_point(o.blocks, 0, middle + 1e-5 * inward).modes;
       for (std::size_t a = 0; a < modes.count; ++a)
-        EXPECT_NEAR(weights[a], 0.5 * (modes.of(a, v) + modes.of(a, next)), 1e-4) << s.name;
+        EXPECT_NEAR(weights[a].second, 0.5 * (modes.of(a, v) + modes.of(a, next)), 1e-4) << s.name;
+    }
+  }
+}
+
+/// Forces on both ends of all edges do the work on nodes and modes that they do on the corners.
+TEST(Bending, ForcesOnEdgesDoTheirWork) {
+  std::mt19937 rng(4);
+  std::uniform_real_distribution<double> any(-1.0, 1.0);
+  for (const Shape& s : shapes()) {
+    const OneBlock o(s.ring);
+    BodyVector u(o.modes().count);
+    for (Vec2& of_node : u.nodes) of_node = {any(rng), any(rng)};
+    for (std::size_t a = 0; a < u.count; ++a) u.modes.set(a, {any(rng), any(rng)});
+    BodyVectors forces = zero_vectors(o.blocks);
+    const EdgeForcesView view = edge_forces_view(o.blocks, forces);
+    EdgeForces on(view, 0);
+    BlockForces at_corners{o.blocks, 0};
+    double work = 0.0;
+    for (Id e = 0; e < o.corners(); ++e) {
+      const Four f{any(rng), any(rng), any(rng), any(rng)};
+      on.set(e, f);
+      const Vec2 from{f[0], f[1]}, to{f[2], f[3]};
+      at_corners.at_corner(e, from);
+      at_corners.at_corner(o.blocks.next[e], to);
+      work +=
+          dot(from, corner_at(o.blocks, u, e)) + dot(to, corner_at(o.blocks, u, o.blocks.next[e]));
+    }
+    on.store();
+    EXPECT_NEAR(dot(vector_of(o.blocks, forces, 0), u), work, 1e-11) << s.name;
+    EXPECT_NEAR(dot(at_corners.sum, u), work, 1e-11) << s.name;
+  }
+}
+
+/// A bent block that turns as a whole keeps its shape.
+TEST(Bending, RigidMotionsTakeTheCornersAlong) {
+  for (const Shape& s : shapes()) {
+    OneBlock o(s.ring);
+    for (std::size_t a = 0; a < o.modes().count; ++a)
+      o.state.position.modes.set(o.modes()[a], {0.02, -0.01 * static_cast<double>(a)});
+    const BodyVector at = vector_of(o.blocks, o.state.position, 0);
+    const Vec2 centre{0.3, -0.2}, by{2.0, 1.0};
+    const BodyVector there = rigid_positions(at, centre, by, 0.7),
+                     speeds = rigid_velocities(at, centre, by, 0.7);
+    for (Id v = 0; v < o.corners(); ++v) {
+      const Vec2 arm = corner_at(o.blocks, at, v) - centre;
+      EXPECT_NEAR(norm(corner_at(o.blocks, there, v) - (centre + by + rotated(arm, 0.7))), 0.0,
+                  1e-12);
+      EXPECT_NEAR(norm(corner_at(o.blocks, speeds, v) - (by + 0.7 * perp(arm))), 0.0, 1e-12);
     }
   }
 }

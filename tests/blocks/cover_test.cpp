@@ -118,7 +118,9 @@ TEST(BuildBlocks, KineticEnergyOfALinearFieldIsExact) {
     double kinetic = 0.0;
     if (kind == MassKind::matched) {
       for (std::size_t k = 0; k < 3; ++k) {
-        kinetic += 0.5 * masses.node[k][0] * (s.vx[k][0] * s.vx[k][0] + s.vy[k][0] * s.vy[k][0]);
+        kinetic +=
+            0.5 * masses.node[k][0] *
+            (s.velocity.x[k][0] * s.velocity.x[k][0] + s.velocity.y[k][0] * s.velocity.y[k][0]);
       }
     } else {
       std::array<double, 6> inverse;
@@ -127,7 +129,9 @@ TEST(BuildBlocks, KineticEnergyOfALinearFieldIsExact) {
       constexpr std::size_t at[3][3] = {{0, 1, 2}, {1, 3, 4}, {2, 4, 5}};
       for (std::size_t k = 0; k < 3; ++k) {
         for (std::size_t l = 0; l < 3; ++l) {
-          kinetic += 0.5 * mass[at[k][l]] * (s.vx[k][0] * s.vx[l][0] + s.vy[k][0] * s.vy[l][0]);
+          kinetic +=
+              0.5 * mass[at[k][l]] *
+              (s.velocity.x[k][0] * s.velocity.x[l][0] + s.velocity.y[k][0] * s.velocity.y[l][0]);
         }
       }
     }
@@ -163,7 +167,7 @@ TEST(BuildBlocks, VertexWeightsReproduceTheVertices) {
   const BlockSet b = build_blocks(model, set);
   const State s = initial_state(b, set);
   for (std::size_t v = 0; v < b.vertex_count(); ++v) {
-    const Vec2 p = vertex_at(b, s.x, s.y, v);
+    const Vec2 p = corner_at(b, s.position, v);
     EXPECT_NEAR(p.x, b.vertex_x[v], 1e-14);
     EXPECT_NEAR(p.y, b.vertex_y[v], 3e-14);
   }

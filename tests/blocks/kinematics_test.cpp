@@ -81,9 +81,9 @@ TEST(Kinematics, VerticesAreWhereTheirWeightsSay) {
     store(nodes_of(b) + affine(b), x, y, 0);
     Pose pose{b.vertex_x, b.vertex_y, b.vertex_x, b.vertex_y};
     State state;
-    state.x = x;
-    state.y = y;
-    state.bend.assign(b.bending.modes(), 0.0);
+    state.position.x = x;
+    state.position.y = y;
+    state.position.modes.assign(b.bending.modes(), 0.0);
     const double farthest = place_next(b, state, pose, 0, 1);
     double expected = 0.0;
     for (Id v = 0; v < 4; ++v) {
@@ -95,7 +95,7 @@ TEST(Kinematics, VerticesAreWhereTheirWeightsSay) {
     }
     EXPECT_NEAR(farthest, expected, 1e-9 * expected);
     std::vector<double> px(4), py(4);
-    place_vertices(b, x, y, 0, px, py);
+    place_vertices(b, state.position, 0, px, py);
     EXPECT_EQ(px, pose.x1);
     EXPECT_EQ(py, pose.y1);
   }
@@ -107,18 +107,23 @@ TEST(Kinematics, ForcesOnEdgesDoTheirWorkOnTheNodes) {
   constexpr Id edges[2] = {1, 3};
   for (const MassKind kind : kinds) {
     const BlockSet b = one_block(kind);
-    EdgeForces on;
+    BodyVectors forces_on = zero_vectors(b);
+    const EdgeForcesView view = edge_forces_view(b, forces_on);
+    EdgeForces on(view, 0);
     double work = 0.0;
     Vec2 sum;
     for (std::size_t q = 0; q < 2; ++q) {
       const Id e = edges[q], to = b.next[e];
-      on.add(values_of(b.weight), e, to, forces[q]);
+      on.set(e, forces[q]);
       const Vec2 at_start{forces[q][0], forces[q][1]}, at_end{forces[q][2], forces[q][3]};
       work += dot(at_start, moved_by(b.vertex(e))) + dot(at_end, moved_by(b.vertex(to)));
       sum += at_start + at_end;
     }
-    EXPECT_NEAR(dot(on.on_nodes(), affine(b)), work, 1e-10);
-    EXPECT_NEAR(norm(resultant(on.on_nodes()) - sum), 0.0, 1e-13);
+    for (const Id e : {0u, 2u}) on.set_none(e);
+    on.store();
+    const NodeVectors f = vectors_of(forces_on, 0);
+    EXPECT_NEAR(dot(f, affine(b)), work, 1e-10);
+    EXPECT_NEAR(norm(resultant(f) - sum), 0.0, 1e-13);
   }
 }
 

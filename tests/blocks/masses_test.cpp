@@ -40,7 +40,8 @@ TEST(Masses, KineticEnergyOfARigidMotion) {
   for (const MassKind kind : kinds) {
     const OneBlock o(kind, {1.0, -2.0}, spin);
     const double mass = o.blocks.mass[0], exact = 0.5 * mass * (4.0 + 1.0) / 12.0 * spin * spin;
-    const double turning = kinetic_energy(o.masses, o.state.vx, o.state.vy, 0) - 0.5 * mass * 5.0;
+    const double turning =
+        kinetic_energy(o.masses, o.blocks, o.state.velocity, 0) - 0.5 * mass * 5.0;
     if (kind == MassKind::covering) {
       EXPECT_GT(turning, exact);
     } else {
@@ -66,7 +67,7 @@ TEST(Masses, AccelerationsBalanceTheForces) {
 /// A force does the same work at its point as its parts do on the nodes.
 TEST(Nodes, SpreadForcesDoTheSameWork) {
   const OneBlock o(MassKind::matched, {1.0, -2.0}, 3.0);
-  const NodeVectors v = vectors_of(o.state.vx, o.state.vy, 0);
+  const NodeVectors v = vectors_of(o.state.velocity, 0);
   const NodeWeights w = weights_between(o.blocks, 1, 2, 0.25);
   const Vec2 force{3.0, -4.0}, at{2.0, 0.25}, centre{1.0, 0.5};
   NodeVectors f{};
@@ -75,7 +76,7 @@ TEST(Nodes, SpreadForcesDoTheSameWork) {
   EXPECT_NEAR(norm(weighted(w, v) - velocity), 0.0, 1e-12);
   EXPECT_NEAR(norm(resultant(f) - 2.0 * force), 0.0, 1e-12);
   EXPECT_NEAR(dot(f, v), 2.0 * dot(force, velocity), 1e-11);
-  EXPECT_TRUE(is_finite(o.state.vx, o.state.vy, 0));
+  EXPECT_TRUE(is_finite(o.blocks, o.state.velocity, 0));
 }
 
 }  // namespace

@@ -60,7 +60,7 @@ struct Moved {
   }
   explicit Moved(std::mt19937& rng) : Moved(wall_with_gaps(rng)) {}
 
-  double approach() { return largest_approach(groups, blocks, state, pose, standing_of(list)); }
+  double approach() { return largest_approach(groups, blocks, state, pose, origin_of(list)); }
 
   void shift(Id block, Vec2 by) {
     for (Id v = blocks.vertex_begin[block]; v < blocks.vertex_begin[block + 1]; ++v) {

@@ -318,7 +318,7 @@ TEST(BartonBandis, FrictionAndDilationInForce) {
     const JointLaw joint = barton_joint();
     MovedBlocks m = square_on_base(joint, thickness);
     m.start();
-    m.laws = divided_laws(m.model, {factor});
+    m.laws = divided_laws(m.model, {factor, factor});
     const double depth = 1e-4;
     m.put_still(1, {{0.0, -depth}});
     m.change(
@@ -342,7 +342,7 @@ TEST(StrengthFactors, DivideAllStrength) {
   joint.residual = {30.0, 1e5, 5e4};
   Model model;
   model.joints = {joint};
-  const Law whole = build_laws(model).rows[0], half = divided_laws(model, {2.0}).rows[0];
+  const Law whole = build_laws(model).rows[0], half = divided_laws(model, {2.0, 2.0}).rows[0];
   EXPECT_EQ(half.peak_friction, 0.5 * whole.peak_friction);
   EXPECT_EQ(half.peak_cohesion, 0.5 * whole.peak_cohesion);
   EXPECT_EQ(half.peak_tension, 0.5 * whole.peak_tension);
@@ -363,7 +363,7 @@ TEST(StrengthFactors, AnOpenFaceOfBartonBandisHasItsResidualFriction) {
   EXPECT_GT(m.faces.friction[k], tangent(30.0));
   for (int n = 0; n < 3; ++n) m.go(1, {{0.0, 1e-3}});
   m.change([&](FaceSet& faces, const FaceStates& states) {
-    put_in_force(faces, states, divided_laws(m.model, {2.0}));
+    put_in_force(faces, states, divided_laws(m.model, {2.0, 2.0}));
   });
   EXPECT_NEAR(m.faces.friction[k], tangent(28.0) / 2.0, 1e-12);
 }
@@ -371,7 +371,8 @@ TEST(StrengthFactors, AnOpenFaceOfBartonBandisHasItsResidualFriction) {
 TEST(StrengthFactors, ApplyToTheStrengthInForce) {
   MovedBlocks m = bonded_square();
   const std::size_t k = bonded_face(m);
-  const LawTable once = divided_laws(m.model, {1.25}), twice = divided_laws(m.model, {2.5});
+  const LawTable once = divided_laws(m.model, {1.25, 1.25}),
+                 twice = divided_laws(m.model, {2.5, 2.5});
   for (const LawTable* laws : {&once, &twice}) put_in_force(m.faces, m.states(), *laws);
   EXPECT_NEAR(m.faces.friction[k], tangent(30.0) / 2.5, 1e-12);
   EXPECT_NEAR(m.faces.cohesion[k], cohesion * thickness / 2.5, 1e-6);

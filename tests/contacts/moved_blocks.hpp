@@ -84,10 +84,10 @@ struct MovedBlocks : DrawnBlocks {
   FaceScene scene() const { return {blocks, masses, pose, laws}; }
   /// Evaluates the faces, which have the memory of the step before.
   void evaluate_from(double since) {
-    NodalForces on = no_forces(blocks);
-    FacesInStep here(faces, tiled, scene(), since, 0.0, {on.x, on.y, on.modes});
+    BodyVectors on = zero_vectors(blocks);
+    FacesInStep here(faces, tiled, scene(), since, 0.0, {on});
     here.sweep();
-    here.decide_and_evaluate(here.asking());
+    here.decide_and_evaluate(here.undecided());
     recall_work(faces, tiled.tiles);
   }
   /// The same at rest: their memory of this step is also that of the one before.

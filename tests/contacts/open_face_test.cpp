@@ -51,7 +51,7 @@ TEST(OpenFace, LooksSayWhatTheEvaluationSays) {
   for (int n = 0; n < 200000 && !HasFailure(); ++n) {
     const FaceInputs in = faces.next();
     const EdgeGeometry stands = geometry_of_edges(in.at, in.pair);
-    const OpenFace look = look_at_open_face(in, stands);
+    const OpenFace look = test_open_face(in, stands);
     const Face face =
         face_between<Formulas::all>(stands, overlap_of<Formulas::all>(stands, in.pair), in.pair);
     if (look.gate == 0.0) {

@@ -134,7 +134,7 @@ TEST(Inside, IsWhereTheDepthIsPositive) {
     if (n % 4 == 2) p = 0.5 * (b.vertex(v) + b.vertex(e));
     if (n % 16 == 3) p = b.vertex(v);
     const bool lies = lies_inside(b, pose, p, j);
-    EXPECT_EQ(lies, inside_of(b, pose, p, j).depth > 0.0);
+    EXPECT_EQ(lies, depth_inside(b, pose, p, j) > 0.0);
     ++(lies ? inside : outside);
   }
   EXPECT_GT(inside, 1000);

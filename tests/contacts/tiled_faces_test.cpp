@@ -89,8 +89,8 @@ TEST(TiledFaces, WhatDidNotActActsOnceItHasBeenOpen) {
 TEST(TiledFaces, FacesThatAreAwakeTakePartInCorrections) {
   Both m(test::rough_joint(30.0), -1e-4);
   m.go_both({{0.0, -2e-4}});
-  NodalForces on = no_forces(m.blocks);
-  const FacesInStep here(m.faces, m.tiled, m.scene(), m.step, 0.0, {on.x, on.y, on.modes});
+  BodyVectors on = zero_vectors(m.blocks);
+  const FacesInStep here(m.faces, m.tiled, m.scene(), m.step, 0.0, {on});
   for (Id k = 0; k < m.faces.size(); ++k) EXPECT_TRUE(here.takes_part(0.0, k)) << k;
 }
 

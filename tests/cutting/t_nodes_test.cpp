@@ -19,7 +19,7 @@ PolygonSet of(const std::vector<Ring>& rings) {
   }
   return set;
 }
-const auto all = [](std::size_t) { return true; };
+const auto all = [](std::size_t) { return TNodes{48, true}; };
 
 /// Two bricks on one: the joint between them ends within its upper edge.
 TEST(TNodes, AnEdgeHasOneWhereTwoNeighboursMeet) {
@@ -27,7 +27,7 @@ TEST(TNodes, AnEdgeHasOneWhereTwoNeighboursMeet) {
                        {{0, 1}, {0.9, 1}, {0.9, 2}, {0, 2}},
                        {{0.9, 1}, {2, 1}, {2, 2}, {0.9, 2}}});
   set.blocks[0].table = {{4, 5, 6, 7}};
-  add_t_nodes(set, 1e-9, 48, all);
+  add_t_nodes(set, 1e-9, all);
   const Ring expected{{0, -1}, {2, -1}, {2, 1}, {0.9, 1}, {0, 1}};
   EXPECT_EQ(set.blocks[0].rings[0], expected);
   const std::vector<Index> laws{0, 1, 2, 2, 3};
@@ -45,7 +45,7 @@ TEST(TNodes, CornersElsewhereAreNone) {
                        {{2, 1}, {3, 1}, {3, 2}, {2, 2}},
                        {{-1, 1}, {0.05, 1}, {0.05, 2}, {-1, 2}}});
   const PolygonSet before = set;
-  add_t_nodes(set, 1e-9, 48, all);
+  add_t_nodes(set, 1e-9, all);
   EXPECT_EQ(set.blocks[0].rings, before.blocks[0].rings);
 }
 
@@ -54,7 +54,7 @@ TEST(TNodes, ACornerThatHardlyTurnsIsNone) {
   for (const double rise : {0.0, 0.01, 0.1, 0.3}) {
     PolygonSet set =
         of({{{0, -1}, {2, -1}, {2, 0}, {0, 0}}, {{-1, 0}, {1, 0}, {3, rise}, {3, 2}, {-1, 2}}});
-    add_t_nodes(set, 1e-9, 48, all);
+    add_t_nodes(set, 1e-9, all);
     EXPECT_EQ(set.blocks[0].rings[0].size(), rise < 0.2 ? 4u : 6u) << rise << " over 2 m";
   }
 }
@@ -63,17 +63,17 @@ TEST(TNodes, ACornerThatHardlyTurnsIsNone) {
 /// without such neighbours.
 TEST(TNodes, LongBlocksHavePartners) {
   PolygonSet set = of({{{-2, -1}, {4, -1}, {4, 0}, {-2, 0}}, {{0.1, 0}, {2, 0}, {2, 1}, {0.1, 1}}});
-  add_t_nodes(set, 1e-9, 48, all);
+  add_t_nodes(set, 1e-9, all);
   const Ring expected{{-2, -1}, {0.1, -1}, {2, -1}, {4, -1}, {4, 0}, {2, 0}, {0.1, 0}, {-2, 0}};
   ASSERT_EQ(set.blocks[0].rings[0].size(), expected.size());
   for (std::size_t v = 0; v < expected.size(); ++v)
     EXPECT_NEAR(norm(set.blocks[0].rings[0][v] - expected[v]), 0.0, 1e-12) << v;
   PolygonSet thick =
       of({{{-2, -5}, {4, -5}, {4, 0}, {-2, 0}}, {{0.1, 0}, {2, 0}, {2, 1}, {0.1, 1}}});
-  add_t_nodes(thick, 1e-9, 48, all);
+  add_t_nodes(thick, 1e-9, all);
   EXPECT_EQ(thick.blocks[0].rings[0].size(), 6u);
   PolygonSet alone = of({{{0, 0}, {100, 0}, {100, 1}, {0, 1}}});
-  add_t_nodes(alone, 1e-9, 48, all);
+  add_t_nodes(alone, 1e-9, all);
   EXPECT_EQ(alone.blocks[0].rings[0].size(), 4u);
 }
 
@@ -81,11 +81,11 @@ TEST(TNodes, LongBlocksHavePartners) {
 TEST(TNodes, PartnersKeepApart) {
   PolygonSet set =
       of({{{-20, -4}, {20, -4}, {20, 0}, {-20, 0}}, {{-1.5, 0}, {1.5, 0}, {1.5, 1}, {-1.5, 1}}});
-  add_t_nodes(set, 1e-9, 48, all);
+  add_t_nodes(set, 1e-9, all);
   EXPECT_EQ(set.blocks[0].rings[0].size(), 4u + 2u + 2u);
   PolygonSet near =
       of({{{-20, -4}, {20, -4}, {20, 0}, {-20, 0}}, {{-0.9, 0}, {0.9, 0}, {0.9, 1}, {-0.9, 1}}});
-  add_t_nodes(near, 1e-9, 48, all);
+  add_t_nodes(near, 1e-9, all);
   EXPECT_EQ(near.blocks[0].rings[0].size(), 4u + 1u + 1u);
 }
 
@@ -95,7 +95,7 @@ TEST(TNodes, NoBlockHasMoreThanMayBend) {
       of({{{-20, -4}, {20, -4}, {20, 0}, {-20, 0}}, {{-4, 0}, {4, 0}, {4, 1}, {-4, 1}}});
   for (const auto& [most, corners] : {std::pair{8u, 8u}, {7u, 6u}, {6u, 6u}, {5u, 4u}}) {
     PolygonSet set = drawn;
-    add_t_nodes(set, 1e-9, most, all);
+    add_t_nodes(set, 1e-9, [limit = most](std::size_t) { return TNodes{limit, true}; });
     EXPECT_EQ(set.blocks[0].rings[0].size(), corners) << most;
   }
 }
@@ -103,10 +103,34 @@ TEST(TNodes, NoBlockHasMoreThanMayBend) {
 TEST(TNodes, OnlyBlocksThatBendHaveThem) {
   PolygonSet set =
       of({{{0, -1}, {2, -1}, {2, 1}, {0, 1}}, {{0.5, 1}, {1.5, 1}, {1.5, 2}, {0.5, 2}}});
-  add_t_nodes(set, 1e-9, 48, [](std::size_t i) { return i == 1; });
+  add_t_nodes(set, 1e-9, [](std::size_t i) { return i == 1 ? TNodes{48, true} : TNodes{}; });
   EXPECT_EQ(set.blocks[0].rings[0].size(), 4u);
-  add_t_nodes(set, 1e-9, 48, all);
+  add_t_nodes(set, 1e-9, all);
   EXPECT_EQ(set.blocks[0].rings[0].size(), 6u);
+}
+
+/// A meshed block has nodes at its neighbours' corners alone.
+TEST(TNodes, WithoutPartnersNoneAreAcross) {
+  PolygonSet set =
+      of({{{-20, -4}, {20, -4}, {20, 0}, {-20, 0}}, {{-4, 0}, {4, 0}, {4, 1}, {-4, 1}}});
+  add_t_nodes(set, 1e-9, [](std::size_t) { return TNodes{1000, false}; });
+  EXPECT_EQ(set.blocks[0].rings[0].size(), 6u);
+}
+
+TEST(DividedEdges, KeepTheirJointsAndTables) {
+  PolygonSet set = of({{{0, 0}, {3, 0}, {3, 1}, {0, 1}}});
+  set.blocks[0].table = {{4, 5, 6, 7}};
+  divide_edges(set.blocks[0], [](Vec2 from, Vec2 to) {
+    std::vector<Vec2> points;
+    if (norm(to - from) > 2.0) points = {from + (to - from) / 3.0, from + 2.0 / 3.0 * (to - from)};
+    return points;
+  });
+  const Ring expected{{0, 0}, {1, 0}, {2, 0}, {3, 0}, {3, 1}, {2, 1}, {1, 1}, {0, 1}};
+  ASSERT_EQ(set.blocks[0].rings[0].size(), expected.size());
+  for (std::size_t k = 0; k < expected.size(); ++k)
+    EXPECT_NEAR(norm(set.blocks[0].rings[0][k] - expected[k]), 0.0, 1e-12);
+  EXPECT_EQ(set.blocks[0].joint[0], (std::vector<Index>{0, 0, 0, 1, 2, 2, 2, 3}));
+  EXPECT_EQ(set.blocks[0].table[0], (std::vector<Index>{4, 4, 4, 5, 6, 6, 6, 7}));
 }
 
 /// A long edge across many small blocks, drawn at an angle, and the corner of every one of them.
@@ -116,7 +140,7 @@ TEST(TNodes, ALongEdgeHasOneAtEveryNeighbour) {
   std::vector<Ring> rings{{at(0, -1), at(19, -1), at(19, 0), at(0, 0)}};
   for (int k = 0; k < 19; ++k) rings.push_back({at(k, 0), at(k + 1, 0), at(k + 1, 1), at(k, 1)});
   PolygonSet set = of(rings);
-  add_t_nodes(set, 1e-9, 48, all);
+  add_t_nodes(set, 1e-9, all);
   EXPECT_EQ(set.blocks[0].rings[0].size(), 4u + 18u + 18u) << "and as many below";
 }
 

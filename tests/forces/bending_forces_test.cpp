@@ -14,7 +14,7 @@ namespace {
 /// A block that is turned, strained and bent by some percent.
 struct Bent : test::DrawnBlocks {
   State state;
-  NodalForces forces;
+  BodyVectors forces;
   ModeVectors locked;
 
   explicit Bent(double turn = 0.0) {
@@ -28,30 +28,26 @@ struct Bent : test::DrawnBlocks {
                   std::sin(turn) * p.x + std::cos(turn) * p.y};
     };
     for (std::size_t k = 0; k < 3; ++k) {
-      const Vec2 p = turned({state.x[k][0] + more[k], state.y[k][0] + more[(k + 1) % 3]});
-      state.x[k][0] = p.x;
-      state.y[k][0] = p.y;
+      const Vec2 p =
+          turned({state.position.x[k][0] + more[k], state.position.y[k][0] + more[(k + 1) % 3]});
+      state.position.x[k][0] = p.x;
+      state.position.y[k][0] = p.y;
     }
     locked.assign(blocks.bending.modes(), 0.0);
     for (std::size_t a = 0; a < 2; ++a) {
       const double by = 1.0 + static_cast<double>(a);
-      state.bend.set(place(a), turned({0.03 / by, -0.05 * by}));
+      state.position.modes.set(place(a), turned({0.03 / by, -0.05 * by}));
       locked.set(place(a), {4e6 * by, -2e6});
     }
   }
   std::size_t place(std::size_t a) const { return blocks.modes(0)[a]; }
-  double energy() const {
-    const Deformation f = deformation(blocks, state.x, state.y, 0);
-    const Tensor e = corotated_strain(f, rotation(f));
-    return strain_energy(e, e, blocks.volume[0], blocks.lame_lambda[0], blocks.lame_mu[0]) +
-           bending_energy(blocks, state, locked, 0.0, 0);
-  }
+  double energy() const { return stored_energy(blocks, state, {&locked}, 0.0, 0); }
   void gather() {
     Pose pose{blocks.vertex_x, blocks.vertex_y, blocks.vertex_x, blocks.vertex_y};
     BoundarySprings none;
     none.block_begin = {0, 0};
-    gather_forces(forces = no_forces(blocks), blocks, state, pose, no_forces(blocks), none, {}, {},
-                  locked);
+    gather_forces(forces = zero_vectors(blocks), blocks, state, pose, zero_vectors(blocks), none,
+                  {}, {}, {&locked});
   }
 };
 
@@ -70,13 +66,13 @@ TEST(BendingForces, AreTheGradientOfTheEnergy) {
       EXPECT_NEAR(force, (down - up) / (2.0 * d), 2e-7 * 1e8) << what;
     };
     for (std::size_t k = 0; k < 3; ++k) {
-      check(o.state.x[k][0], o.forces.x[k][0], "x of a node");
-      check(o.state.y[k][0], o.forces.y[k][0], "y of a node");
+      check(o.state.position.x[k][0], o.forces.x[k][0], "x of a node");
+      check(o.state.position.y[k][0], o.forces.y[k][0], "y of a node");
     }
     for (std::size_t a = 0; a < 2; ++a) {
       const std::size_t m = o.place(a);
-      check(o.state.bend.x[m], o.forces.modes.x[m], "x of a mode");
-      check(o.state.bend.y[m], o.forces.modes.y[m], "y of a mode");
+      check(o.state.position.modes.x[m], o.forces.modes.x[m], "x of a mode");
+      check(o.state.position.modes.y[m], o.forces.modes.y[m], "y of a mode");
     }
   }
 }
@@ -87,13 +83,14 @@ TEST(BendingForces, HaveNoResultantAndNoMoment) {
   Vec2 sum;
   double moment = 0.0, couples = 0.0;
   for (std::size_t k = 0; k < 3; ++k) {
-    const Vec2 f{o.forces.x[k][0], o.forces.y[k][0]}, x{o.state.x[k][0], o.state.y[k][0]};
+    const Vec2 f{o.forces.x[k][0], o.forces.y[k][0]},
+        x{o.state.position.x[k][0], o.state.position.y[k][0]};
     sum += f;
     moment += cross(x, f);
   }
   for (std::size_t a = 0; a < 2; ++a) {
-    moment += cross(o.state.bend[o.place(a)], o.forces.modes[o.place(a)]);
-    couples += cross(o.state.bend[o.place(a)], o.forces.modes[o.place(a)]);
+    moment += cross(o.state.position.modes[o.place(a)], o.forces.modes[o.place(a)]);
+    couples += cross(o.state.position.modes[o.place(a)], o.forces.modes[o.place(a)]);
   }
   EXPECT_GT(std::abs(couples), 1e5);
   EXPECT_NEAR(norm(sum), 0.0, 1e-6);

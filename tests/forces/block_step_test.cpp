@@ -203,9 +203,9 @@ TEST(StepCache, AreNotThoseOfBlocksAtBoundaries) {
   t.springs = attach_boundaries(m.model, m.blocks).value();
   t.changes("as drawn");
   for (std::size_t k = 0; k < 3; ++k) {
-    const Vec2 p = rotated({m.state.x[k][0], m.state.y[k][0]}, 0.7);
-    m.state.x[k][0] = p.x;
-    m.state.y[k][0] = p.y;
+    const Vec2 p = rotated({m.state.position.x[k][0], m.state.position.y[k][0]}, 0.7);
+    m.state.position.x[k][0] = p.x;
+    m.state.position.y[k][0] = p.y;
   }
   t.changes("turned");
 }

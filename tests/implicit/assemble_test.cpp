@@ -82,21 +82,21 @@ TEST(Assemble, ResidualHasTheVelocityAtTheStartOfTheStep) {
   s.begin_step();
   const Eigen::VectorXd at_rest = s.residual();
   for (std::size_t k = 0; k < 3; ++k) {
-    s.state.vx[k][1] = 0.1 + 0.2 * static_cast<double>(k);
-    s.state.vy[k][1] = 0.3 - 0.1 * static_cast<double>(k);
+    s.state.velocity.x[k][1] = 0.1 + 0.2 * static_cast<double>(k);
+    s.state.velocity.y[k][1] = 0.3 - 0.1 * static_cast<double>(k);
   }
-  s.state.bend_rate.set(s.blocks.modes(1)[0], {0.2, -0.3});
-  const BodyVector v = body_vector(s.blocks, s.state.vx, s.state.vy, s.state.bend_rate, 1);
-  const BodyVector change = (s.residual() - at_rest).head<8>();
-  const BodyVector expected =
+  s.state.velocity.modes.set(s.blocks.modes(1)[0], {0.2, -0.3});
+  const BodyColumn v = column_of(s.blocks, s.state.velocity, 1);
+  const BodyColumn change = (s.residual() - at_rest).head<8>();
+  const BodyColumn expected =
       (2.0 / s.settings.step + s.settings.mass_damping) * (s.solver.mass[1] * v);
   EXPECT_LT((change - expected).norm(), 1e-9 * expected.norm());
   fill_viscosity(s.masses, s.blocks, {});
   s.solver.moved.head<8>() << 1e-7, 2e-7, -1e-7, 0.0, 3e-7, 1e-7, 2e-7, -2e-7;
-  const BodyVector rate = 1.0 / s.settings.step * s.solver.moved.head<8>();
+  const BodyColumn rate = 1.0 / s.settings.step * s.solver.moved.head<8>();
   s.residual();
-  const BodyVector force = viscous_force(s.solver, s.scene(), s.settings, s.state, 0);
-  const BodyVector linear =
+  const BodyColumn force = viscous_force(s.solver, s.scene(), s.settings, s.state, 0);
+  const BodyColumn linear =
       -of_body(viscous_matrix(s.blocks, s.masses, 1), viscosity_of_modes(s.blocks, s.masses, 1)) *
       rate;
   EXPECT_LT((force - linear).norm(), 1e-4 * linear.norm());

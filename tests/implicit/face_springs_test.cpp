@@ -42,11 +42,10 @@ struct Pressed : MovedBlocks {
     put(1, place);
     pose.x1 = x;
     pose.y1 = y;
-    NodalForces on = no_forces(blocks);
-    const ForcesOfFaces sums{on.x, on.y, on.modes};
-    evaluate_springs(springs, trial, scene(), step, false, sums);
+    BodyVectors on = zero_vectors(blocks);
+    evaluate_springs(springs, trial, scene(), step, false, on);
     const std::vector<Id> broken = break_overloaded(springs, trial, scene());
-    if (!broken.empty()) evaluate_springs(springs, trial, scene(), step, false, sums);
+    if (!broken.empty()) evaluate_springs(springs, trial, scene(), step, false, on);
     account_springs(springs, trial, scene(), broken);
     pose.x1 = pose.x;
     pose.y1 = pose.y;
@@ -115,8 +114,8 @@ TEST(FaceSprings, AStepThatIsGivenUpLeavesNothing) {
     const TrialFaces trial{m.faces, m.tiled};
     begin_springs(m.springs, trial, m.scene());
     m.put(1, {{1.0, bonded ? 2.0 * most : -0.5 * depth}});
-    NodalForces on = no_forces(m.blocks);
-    evaluate_springs(m.springs, trial, m.scene(), m.step, false, {on.x, on.y, on.modes});
+    BodyVectors on = zero_vectors(m.blocks);
+    evaluate_springs(m.springs, trial, m.scene(), m.step, false, {on});
     EXPECT_EQ(break_overloaded(m.springs, trial, m.scene()).size(), bonded ? 1u : 0u);
     go_back(m.springs, trial, m.blocks);
     m.pose.x = m.pose.x1 = x;

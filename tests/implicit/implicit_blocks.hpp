@@ -22,7 +22,7 @@ struct ImplicitBlocks {
   Pose pose;
   FaceSet contacts;
   TiledFaces tiled;
-  NodalForces forces;
+  BodyVectors forces;
   ImplicitSolver solver;
   ImplicitSettings settings;
 
@@ -34,7 +34,7 @@ struct ImplicitBlocks {
     laws = build_laws(model);
     springs = attach_boundaries(model, blocks).value();
     state = initial_state(blocks, polygons);
-    forces = no_forces(blocks);
+    forces = zero_vectors(blocks);
     pose.x = blocks.vertex_x;
     pose.y = blocks.vertex_y;
     place();
@@ -49,10 +49,9 @@ struct ImplicitBlocks {
       load_tiles(tiled, contacts, states, blocks, state, pose, false, blocks.size());
     };
     load(FaceStates(contacts.size()));
-    FacesInStep at_rest(contacts, tiled, scene().faces(pose), 1.0, 0.0,
-                        {forces.x, forces.y, forces.modes});
+    FacesInStep at_rest(contacts, tiled, scene().faces(pose), 1.0, 0.0, {forces});
     at_rest.sweep();
-    at_rest.decide_and_evaluate(at_rest.asking());
+    at_rest.decide_and_evaluate(at_rest.undecided());
     end_at_rest(contacts, tiled.tiles, blocks, pose);  // limits of friction
     const FaceStates states = states_of(contacts, tiled.tiles, blocks, pose);
     set_face_dashpots(contacts, laws, settings.contact_damping);
@@ -64,32 +63,28 @@ struct ImplicitBlocks {
 
   void place() {
     for (std::size_t i = 0; i < blocks.size(); ++i) {
-      place_vertices(blocks, state.x, state.y, state.bend, i, pose.x, pose.y);
+      place_vertices(blocks, state.position, i, pose.x, pose.y);
     }
   }
 
   /// Begins a step where the blocks stand.
   void begin_step() {
-    solver.start_x = state.x;
-    solver.start_y = state.y;
-    solver.start_bend = state.bend;
+    solver.start = state.position;
     set_pattern(solver, scene(), state, pose, trial());
     begin_springs(solver.springs, trial(), scene().faces(pose));
-    solver.on_faces = no_forces(blocks);
+    solver.on_faces = zero_vectors(blocks);
     solver.moved = Eigen::VectorXd::Zero(solver.matrix.lines());
   }
   /// What is out of balance with D as it stands.
   Eigen::VectorXd residual() {
     for (std::size_t row = 0; row < solver.block_of.size(); ++row) {
       const Id i = solver.block_of[row];
-      const BodyVector start =
-          body_vector(blocks, solver.start_x, solver.start_y, solver.start_bend, i);
-      store(BodyVector(start + solver.matrix.part(solver.moved, row)), blocks, state.x, state.y,
-            state.bend, i);
+      const BodyColumn start = column_of(blocks, solver.start, i);
+      store(BodyColumn(start + solver.matrix.part(solver.moved, row)), blocks, state.position, i);
     }
     place();
     evaluate_springs(solver.springs, trial(), scene().faces(pose), settings.step, false,
-                     {solver.on_faces.x, solver.on_faces.y, solver.on_faces.modes});
+                     solver.on_faces);
     gather_forces(forces, blocks, state, pose, solver.on_faces, springs, {0.0, -9.81});
     measure_residual(solver, scene(), settings, state, tiled, forces);
     return solver.residual;

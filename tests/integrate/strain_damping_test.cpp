@@ -15,7 +15,7 @@ struct Strained {
   BlockSet blocks;
   Masses masses;
   State state;
-  Nodes none, old_vx, old_vy;
+  BodyVectors none, old_velocity;
   StrainDamping damping;
   double before = 0.0, after = 0.0;  ///< kinetic energy, J
 
@@ -36,20 +36,19 @@ struct Strained {
     state = initial_state(blocks, set);
     const double vx[3] = {0.1, -0.2, 0.05}, vy[3] = {0.03, 0.1, -0.15};
     for (std::size_t k = 0; k < 3; ++k) {
-      state.vx[k][0] = vx[k];
-      state.vy[k][0] = vy[k];
-      none[k] = {0.0};
+      state.velocity.x[k][0] = vx[k];
+      state.velocity.y[k][0] = vy[k];
     }
-    old_vx = state.vx;
-    old_vy = state.vy;
-    before = kinetic_energy(masses, state.vx, state.vy, 0);
+    none = zero_vectors(blocks);
+    old_velocity = state.velocity;
+    before = kinetic_energy(masses, blocks, state.velocity, 0);
     prepare(damping, blocks, masses, 0.5 * (h_old + h_new));
     const StepDamping of_step{0.0, 0.0, nullptr, &damping};
-    advance(state, {blocks, masses, none, none, old_vx, old_vy, h_old, h_new, of_step});
-    after = kinetic_energy(masses, state.vx, state.vy, 0);
+    advance(state, {blocks, masses, none, old_velocity, h_old, h_new, of_step});
+    after = kinetic_energy(masses, blocks, state.velocity, 0);
   }
-  StrainTerms rate(const Nodes& vx, const Nodes& vy) const {
-    return strain_rate(strain_frame({1.0, 0.0, 0.0, 1.0}), deformation(blocks, vx, vy, 0));
+  StrainTerms rate(const BodyVectors& velocity) const {
+    return strain_rate(strain_frame({1.0, 0.0, 0.0, 1.0}), deformation(blocks, velocity, 0));
   }
 
  private:
@@ -59,7 +58,7 @@ struct Strained {
 TEST(StrainDamping, StressIsThatOfTheNewRateOfStrain) {
   for (MassKind kind : {MassKind::matched, MassKind::consistent}) {
     const Strained o(kind, h, h);
-    const StrainTerms rate = o.rate(o.state.vx, o.state.vy);
+    const StrainTerms rate = o.rate(o.state.velocity);
     const double lambda = o.blocks.lame_lambda[0], mu = o.blocks.lame_mu[0];
     const double whole = viscosity * o.blocks.volume[0], size = whole * mu * 0.1;
     EXPECT_NEAR(o.damping.stress[0][0], whole * (lambda * (rate.xx + rate.yy) + 2.0 * mu * rate.xx),
@@ -77,14 +76,14 @@ TEST(StrainDamping, TakesTheEnergyThatItBooks) {
     const double booked = o.damping.work[0];
     EXPECT_NEAR(booked, o.before - o.after, 1e-3 * booked);
     // A motion as a whole is left alone.
-    const Vec2 was = centroid(o.old_vx, o.old_vy, 0), is = centroid(o.state.vx, o.state.vy, 0);
+    const Vec2 was = centroid(o.old_velocity, 0), is = centroid(o.state.velocity, 0);
     EXPECT_NEAR(norm(is - was), 0.0, 1e-12);
   }
 }
 
 /// s . (h_old dU/dt- + h_new dU/dt+)/2.
 double work_of_step(const Strained& o, double h_old, double h_new) {
-  const StrainTerms was = o.rate(o.old_vx, o.old_vy), is = o.rate(o.state.vx, o.state.vy);
+  const StrainTerms was = o.rate(o.old_velocity), is = o.rate(o.state.velocity);
   const double moved[3] = {h_old * was.xx + h_new * is.xx, h_old * was.yy + h_new * is.yy,
                            h_old * was.xy + h_new * is.xy};
   double work = 0.0;
@@ -106,8 +105,8 @@ TEST(StrainDamping, BooksWhatAChangeOfTheVelocitiesLeaves) {
     const double without = o.damping.work[0];
     const NodeVectors change{Vec2{0.2, 0.1}, Vec2{-0.1, 0.3}, Vec2{-0.2, -0.1}};
     const NodeVectors remains = damped_change(o.damping, o.blocks, o.masses, o.state,
-                                              {o.old_vx, o.old_vy, h, h_new}, 0, change);
-    add(remains, o.state.vx, o.state.vy, 0);
+                                              {o.old_velocity, h, h_new}, 0, change);
+    add(remains, o.state.velocity, 0);
     const double expected = work_of_step(o, h, h_new);
     EXPECT_GT(std::abs(expected - without), 0.01 * std::abs(without));
     EXPECT_NEAR(o.damping.work[0], expected, 1e-3 * std::abs(expected));
@@ -119,9 +118,9 @@ TEST(StrainDamping, BooksNothingForWhatIsExcavated) {
     Strained o(kind, h, h);
     EXPECT_GT(o.damping.work[0], 0.0);
     o.state.alive[0] = 0;
-    o.state.vx = o.state.vy = o.old_vx = o.old_vy = zero_nodes(1);
+    o.state.velocity = o.old_velocity = zero_vectors(o.blocks);
     const StepDamping of_step{0.0, 0.0, nullptr, &o.damping};
-    advance(o.state, {o.blocks, o.masses, o.none, o.none, o.old_vx, o.old_vy, h, h, of_step});
+    advance(o.state, {o.blocks, o.masses, o.none, o.old_velocity, h, h, of_step});
     EXPECT_EQ(o.damping.work[0], 0.0);
   }
 }
@@ -130,16 +129,15 @@ TEST(StrainDamping, BooksNothingForWhatIsExcavated) {
 TEST(StrainDamping, BooksTheEnergyOfABlockThatFlies) {
   constexpr double strong = 1.0 / h;
   Strained o(MassKind::matched, h, h);
-  o.state.vx = o.old_vx;
-  o.state.vy = o.old_vy;
-  o.state.x = o.blocks.node_x;
-  o.state.y = o.blocks.node_y;
+  o.state.velocity = o.old_velocity;
+  o.state.position.x = o.blocks.node_x;
+  o.state.position.y = o.blocks.node_y;
   BlockKicks kicks{{0.0}, {}, {}};
   set_kicks(kicks, h);
   prepare(o.damping, o.blocks, o.masses, kicks.h);
-  const StepDamping of_step{strong, 0.0, nullptr, &o.damping, &kicks};
-  advance(o.state, {o.blocks, o.masses, o.none, o.none, o.old_vx, o.old_vy, h, h, of_step});
-  const double lost = o.before - kinetic_energy(o.masses, o.state.vx, o.state.vy, 0);
+  const StepDamping of_step{strong, 0.0, nullptr, &o.damping, nullptr, &kicks};
+  advance(o.state, {o.blocks, o.masses, o.none, o.old_velocity, h, h, of_step});
+  const double lost = o.before - kinetic_energy(o.masses, o.blocks, o.state.velocity, 0);
   EXPECT_GT(lost, 0.02 * o.before);
   EXPECT_NEAR(o.damping.work[0], lost, 1e-3 * lost);
 }
@@ -147,31 +145,33 @@ TEST(StrainDamping, BooksTheEnergyOfABlockThatFlies) {
 /// The loop that adds forces, kicks, damps and moves does what these do one after another.
 TEST(StrainDamping, DampsAsItDoesStepByStep) {
   Strained one(MassKind::matched, h, h), all(MassKind::matched, h, h);
-  const auto forces = [](double first) {
-    Nodes f = zero_nodes(1);
-    for (std::size_t k = 0; k < nodes_per_block; ++k)
-      f[k][0] = first * (1.0 + static_cast<double>(k));
+  const auto forces = [&](double first_x, double first_y) {
+    BodyVectors f = zero_vectors(one.blocks);
+    for (std::size_t k = 0; k < nodes_per_block; ++k) {
+      f.x[k][0] = first_x * (1.0 + static_cast<double>(k));
+      f.y[k][0] = first_y * (1.0 + static_cast<double>(k));
+    }
     return f;
   };
-  const Nodes on_x = forces(3e3), on_y = forces(-2e3);
+  const BodyVectors on = forces(3e3, -2e3);
   const auto step = [&](Strained& o, bool at_once) {
-    Nodes fx = forces(-1e3), fy = forces(5e3);
-    const Nodes old_vx = o.state.vx, old_vy = o.state.vy;
+    BodyVectors all_forces = forces(-1e3, 5e3);
+    const BodyVectors before = o.state.velocity;
     const StepDamping of_step{0.0, 0.0, nullptr, &o.damping};
-    const Leap leap{o.blocks, o.masses, fx, fy, old_vx, old_vy, h, h, of_step};
+    const Leap leap{o.blocks, o.masses, all_forces, before, h, h, of_step};
     if (at_once) {
-      add_and_advance(o.state, leap, {on_x, on_y, fx, fy}, 0, 1);
+      add_and_advance(o.state, leap, {on, all_forces}, 0, 1);
     } else {
-      add_to_free(o.blocks, o.state, {on_x, on_y, fx, fy}, 0, 1);
+      add_to_free(o.blocks, o.state, {on, all_forces}, 0, 1);
       advance(o.state, leap, 0, 1);
     }
-    EXPECT_EQ(fx[1][0], 2.0 * 2e3);
+    EXPECT_EQ(all_forces.x[1][0], 2.0 * 2e3);
   };
   step(all, true);
   step(one, false);
-  EXPECT_EQ(all.state.x, one.state.x);
-  EXPECT_EQ(all.state.y, one.state.y);
-  EXPECT_EQ(all.state.vx, one.state.vx);
+  EXPECT_EQ(all.state.position.x, one.state.position.x);
+  EXPECT_EQ(all.state.position.y, one.state.position.y);
+  EXPECT_EQ(all.state.velocity.x, one.state.velocity.x);
   EXPECT_EQ(all.damping.work, one.damping.work);
   EXPECT_GT(all.damping.work[0], 0.0);
 }

@@ -46,14 +46,9 @@ Id id_of(const Simulation& sim, const std::string& name) {
 
 /// Moves a block by `by` after it has turned about `about`, counter-clockwise (rad).
 void move(Simulation& sim, Id i, Vec2 by, double turn = 0.0, Vec2 about = {}) {
-  State& s = sim.motion.state;
-  NodeVectors x = vectors_of(s.x, s.y, i);
-  const Vec2 local = about - sim.scene->blocks.origin;
-  for (Vec2& of : x) {
-    const Vec2 arm = of - local;
-    of = local + std::cos(turn) * arm + std::sin(turn) * perp(arm) + by;
-  }
-  store(x, s.x, s.y, i);
+  const BlockSet& b = sim.scene->blocks;
+  BodyVectors& at = sim.motion.state.position;
+  store(rigid_positions(vector_of(b, at, i), about - b.origin, by, turn), b, at, i);
 }
 
 const std::string supported = "[[boundary]]\nsides = ['bottom']\ntype = 'fixed'\n";
@@ -74,6 +69,40 @@ TEST(MovedSets, ABlockSlidesOnGroundHoweverLargeAndFreeThatIs) {
       EXPECT_NEAR(sets[0].part, 0.05, 1e-12) << "of its size, 1 m";
       EXPECT_NEAR(sets[0].area, 1.0, 1e-12);
     }
+  }
+}
+
+/// A corner of meshed ground is as large as itself, however large the ground, and flows against
+/// what its rock strains; ground that turns as a whole does not flow.
+TEST(MovedSets, APartOfMeshedGroundFlows) {
+  for (const double size : {8.0, 24.0}) {
+    Simulation sim =
+        model("[zones]\nsize = 0.5\n" + block("ground", -size / 2, -size, size, size) + supported);
+    const RelativeMotion motion(sim);
+    const BlockSet& b = sim.scene->blocks;
+    const Meshes& m = b.meshes;
+    ASSERT_TRUE(b.is_meshed(0));
+    Zones& zones = sim.motion.zones;
+    const double shear = 1e9 / 2.4, strain = 2e-3;
+    zones.stress[0] = {0.0, -2.0 * shear * strain, 0.0, 0.0};
+    zones.yielding[0] = static_cast<std::uint8_t>(Yielding::in_tension);
+    move(sim, 0, {0.5, 0.2}, 0.3);
+    EXPECT_TRUE(motion.flowing(sim).empty()) << "nothing shears";
+    zones.yielding[0] = static_cast<std::uint8_t>(Yielding::in_shear);
+    const std::vector<FlowingPart> turned = motion.flowing(sim);
+    EXPECT_TRUE(turned.empty() || turned[0].part < 1e-12);
+    const Vec2 corner{0.5 * size, 0.5 * size};
+    double area = 0.0;
+    for (std::size_t j = 0; j < m.nodes(); ++j) {
+      if (norm(Vec2{m.arm_x[j], m.arm_y[j]} - corner) > 3.0) continue;
+      area += m.share[j] * b.area[0];
+      sim.motion.state.position.modes.add(b.bending.modes() + j, {0.1, 0.0});
+    }
+    const std::vector<FlowingPart> parts = motion.flowing(sim);
+    ASSERT_EQ(parts.size(), 1u) << size;
+    EXPECT_NEAR(parts[0].area, area, 1e-9 * area);
+    EXPECT_NEAR(parts[0].part, 0.1 / std::sqrt(area), 1e-9);
+    EXPECT_NEAR(parts[0].strains, 0.1 / std::sqrt(area) / strain, 1e-6);
   }
 }
 

@@ -325,6 +325,41 @@ surface_y = "150 m"
 surface = "level"
 )";
 
+// A model of its own: rock yields in plane strain alone.
+inline const std::string every_zones_key = R"([materials.rock]
+density = 2750
+young = "20 GPa"
+poisson = 0.25
+zone_size = "0.4 m"
+yield = { friction_angle = 35, cohesion = "1 MPa", tensile_strength = 2e5, dilation_angle = 5, slip_distance = "8 mm", residual = { friction_angle = 30, cohesion = 0, dilation_angle = 0 } }
+foliation = { angle = 20, friction_angle = 25, cohesion = "0.1 MPa", tensile_strength = 1e4, dilation_angle = 3 }
+[materials.marl]
+density = 2600
+young = "5 GPa"
+poisson = 0.3
+yield = { ucs = "40 MPa", gsi = 45, mi = 9, disturbance = 0.3 }
+[materials.shale]
+density = 2600
+young = "5 GPa"
+poisson = 0.3
+yield = { ucs = "40 MPa", m = 0.9, s = 1e-3, a = 0.51 }
+[materials.slate]
+density = 2600
+young = "50 GPa"
+poisson = 0.2
+foliation = { angle = 70, young = "20 GPa", poisson = 0.1, shear_modulus = "8 GPa" }
+[joints.j]
+friction_angle = 30
+[zones]
+size = "0.5 m"
+growth = 0.2
+[[block]]
+polygon = [[0, 0], [2, 0], [2, 2], [0, 2]]
+material = "rock"
+[solver]
+duration = 1
+)";
+
 // In place of an outline.
 inline const std::string every_slope_key = R"([slope]
 toe = [12, 2]

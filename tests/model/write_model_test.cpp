@@ -17,6 +17,7 @@ namespace {
 using testing::every_key;
 using testing::every_slope_key;
 using testing::every_weight_key;
+using testing::every_zones_key;
 using testing::read_or_fail;
 
 TEST(WriteModel, SlopeComesBack) {
@@ -70,11 +71,35 @@ TEST(WriteModel, ImplicitMethodComesBack) {
   EXPECT_FALSE(second.solver.dynamic);
 }
 
+TEST(WriteModel, RockThatYieldsComesBack) {
+  const Model first = read_or_fail(every_zones_key);
+  const std::string written = to_toml(first);
+  const Model second = read_or_fail(written);
+  EXPECT_EQ(to_toml(second), written);
+  ASSERT_TRUE(second.zones);
+  EXPECT_EQ(second.zones->size, 0.5);
+  EXPECT_EQ(second.zones->growth, 0.2);
+  const Material& rock = second.materials[0];
+  EXPECT_EQ(rock.zone_size, 0.4);
+  ASSERT_TRUE(rock.yield);
+  EXPECT_EQ(rock.yield->peak.friction_angle, 35.0);
+  EXPECT_EQ(rock.yield->peak.cohesion, 1e6);
+  EXPECT_EQ(rock.yield->peak.tensile_strength, 2e5);
+  EXPECT_EQ(rock.yield->peak.dilation_angle, 5.0);
+  EXPECT_EQ(rock.yield->slip_distance, 0.008);
+  EXPECT_EQ(rock.yield->residual->friction_angle, 30.0);
+  EXPECT_FALSE(rock.yield->residual->tensile_strength);
+  EXPECT_EQ(rock.foliation->angle, 20.0);
+  EXPECT_EQ(second.materials[1].yield->peak.gsi, 45.0);
+  EXPECT_EQ(second.materials[2].yield->peak.m, 0.9);
+  EXPECT_EQ(second.materials[3].foliation->shear_modulus, 8e9);
+}
+
 TEST(WriteModel, EveryKeyOfTheTableIsInTheTest) {
   for (const Section& section : sections()) {
     for (const Key& key : section.keys) {
       const std::string start = std::string(key.name) + " = ";
-      const std::string all = every_key + every_slope_key + every_weight_key;
+      const std::string all = every_key + every_slope_key + every_weight_key + every_zones_key;
       EXPECT_TRUE(all.starts_with(start) || all.find('\n' + start) != std::string::npos)
           << section.name << '.' << key.name;
     }

@@ -46,10 +46,10 @@ void expect_same(const Nodes& a, const Nodes& b) {
 }
 
 void expect_same(const Instant& a, const Instant& b) {
-  expect_same(a.state.x, b.state.x);
-  expect_same(a.state.y, b.state.y);
-  expect_same(a.state.vx, b.state.vx);
-  expect_same(a.state.vy, b.state.vy);
+  expect_same(a.state.position.x, b.state.position.x);
+  expect_same(a.state.position.y, b.state.position.y);
+  expect_same(a.state.velocity.x, b.state.velocity.x);
+  expect_same(a.state.velocity.y, b.state.velocity.y);
   expect_same(a.forces.x, b.forces.x);
   expect_same(a.forces.y, b.forces.y);
   EXPECT_EQ(a.state.time, b.state.time);

@@ -127,7 +127,7 @@ TEST(Locking, OfACantileverIsWhatTheRunLoses) {
     const Simulation& sim = run.sim;
     const std::size_t tip = 10;
     const double moved =
-        sim.scene->blocks.centroid_y[tip] - centroid(sim.motion.state.x, sim.motion.state.y, tip).y;
+        sim.scene->blocks.centroid_y[tip] - centroid(sim.motion.state.position, tip).y;
     const double young = 20e9 / 0.96, shear = 20e9 / 2.4, at = 9.5;  // of the last centroid
     const double exact =
         1e4 * (at * at * (3.0 * 10.0 - at) / (6.0 * young / 12.0) + 1.2 * at / shear);

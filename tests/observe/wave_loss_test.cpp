@@ -34,7 +34,7 @@ double amplitude(PreparedRun& run, Vec2 at, bool acceleration) {
   const double duration = sim.scene->model.solver.duration;
   start(sim, duration);
   while (sim.motion.state.time < duration && !step(sim)) {
-    const Vec2 v = centroid(sim.motion.state.vx, sim.motion.state.vy, nearest);
+    const Vec2 v = centroid(sim.motion.state.velocity, nearest);
     const double along = acceleration ? (v.x + v.y - before) / sim.motion.state.step : v.x + v.y;
     before = v.x + v.y;
     low = std::min(low, along);

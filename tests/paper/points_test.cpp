@@ -18,7 +18,7 @@ struct Scene {
   Pose pose;
   LawTable laws;
   PointSet points;
-  NodalForces on;  ///< those of the contacts
+  BodyVectors on;  ///< those of the contacts
 
   explicit Scene(const std::string& shapes, double friction = 30.0) {
     Result<Model> model = read_model_text(
@@ -37,13 +37,13 @@ struct Scene {
     pose.x.resize(blocks.vertex_count());
     pose.y = pose.x;
     for (std::size_t i = 0; i < blocks.size(); ++i)
-      place_vertices(blocks, state.x, state.y, i, pose.x, pose.y);
+      place_vertices(blocks, state.position, i, pose.x, pose.y);
     find_points(points, blocks, state, pose, laws, 0.1);
     move();
   }
   void move() {
     move_points(points, blocks, pose, laws);
-    on = no_forces(blocks);
+    on = zero_vectors(blocks);
     sum_points(on, blocks, points, pose);
   }
   /// Moves block i as a whole.
@@ -55,14 +55,14 @@ struct Scene {
     move();
   }
   Vec2 force_on(std::size_t i) const {
-    const NodeVectors f = vectors_of(on.x, on.y, i);
+    const NodeVectors f = vectors_of(on, i);
     return f[0] + f[1] + f[2];
   }
   /// Moment about the origin of the blocks' coordinates, N m; the nodes as drawn.
   double moment_on(std::size_t i) const {
     double sum = 0.0;
     for (std::size_t k = 0; k < 3; ++k)
-      sum += cross({state.x[k][i], state.y[k][i]}, {on.x[k][i], on.y[k][i]});
+      sum += cross({state.position.x[k][i], state.position.y[k][i]}, {on.x[k][i], on.y[k][i]});
     return sum;
   }
   /// The only contact.
@@ -140,9 +140,9 @@ TEST(Points, MomentIsThatOfEquation35) {
   Scene s(wedge(0.001));
   EXPECT_NEAR(s.moment_on(0) + s.moment_on(1), 0.0, 1e-5);
   s.shift(1, {0.0005, 0.0});
-  s.state.x[0][1] += 0.0005;
-  s.state.x[1][1] += 0.0005;
-  s.state.x[2][1] += 0.0005;
+  s.state.position.x[0][1] += 0.0005;
+  s.state.position.x[1][1] += 0.0005;
+  s.state.position.x[2][1] += 0.0005;
   EXPECT_NEAR(norm(s.force_on(0) + s.force_on(1)), 0.0, 1e-5);
   EXPECT_NEAR(std::abs(s.moment_on(0) + s.moment_on(1)), 4e7 * 0.0005 * 0.001, 1e-5);
 }

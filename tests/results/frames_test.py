@@ -125,10 +125,45 @@ def check_contacts(folder):
     assert data.GetArray("force").GetNumberOfComponents() == 3
 
 
+def check_zones(folder):
+    """The zones of a meshed block cover it, and its row has their mean."""
+    frames = series(folder / "blocks.pvd")
+    grid = read(folder / frames[-1][1])
+    data = grid.GetCellData()
+    ids = vtk_to_numpy(data.GetArray("id"))
+    stress = vtk_to_numpy(data.GetArray("stress"))
+    strain, yields = (vtk_to_numpy(data.GetArray(name)) for name in ("plastic_strain", "yields"))
+    with open(folder / "blocks.csv") as file:
+        rows = {r["name"]: r for r in csv.DictReader(file)}
+    cells = [c for c in range(grid.GetNumberOfCells()) if ids[c] == int(rows["box"]["id"])]
+    assert len(cells) > 20
+    assert all(grid.GetCellType(c) == vtk.VTK_TRIANGLE for c in cells)
+    areas = [area_and_centre(grid.GetCell(c))[0] for c in cells]
+    assert min(areas) > 0.0 and abs(sum(areas) - 2.0) < 0.05, sum(areas)
+    for column, component in (("sxx", 0), ("syy", 1), ("szz", 2), ("sxy", 3)):
+        mean = sum(a * stress[c][component] for a, c in zip(areas, cells)) / sum(areas)
+        assert abs(mean - float(rows["box"][column])) < 1e-2 * max(1e3, abs(mean)), (column, mean)
+    assert max(stress[c][1] for c in cells) - min(stress[c][1] for c in cells) > 1e3
+    assert strain.max() > 0.0 and yields.max() in (1, 2)
+    assert all(strain[c] == 0.0 for c in range(len(ids)) if c not in cells)
+    start = read(folder / frames[0][1])
+    moved = vtk_to_numpy(grid.GetPoints().GetData()) - vtk_to_numpy(start.GetPoints().GetData())
+    assert abs(moved - vtk_to_numpy(grid.GetPointData().GetArray("displacement"))).max() < 1e-12
+
+
 with tempfile.TemporaryDirectory() as name:
     work = pathlib.Path(name)
     (work / "m.toml").write_text(MODEL)
     subprocess.run([str(pathlib.Path(sys.argv[1]).resolve()), "run", "m.toml", "--quiet"], cwd=work, check=True)
     check_blocks(work / "m")
     check_contacts(work / "m")
+    soft = "[materials.soft]\ndensity = 2000.0\nyoung = 1e7\npoisson = 0.25\nzone_size = 0.25\n" \
+           "yield = { friction_angle = 20, cohesion = 2e3 }\n"
+    zones = soft + MODEL.replace('name = "box"', 'name = "box"\nmaterial = "soft"')
+    zones = zones.replace("duration = 0.1", "duration = 0.1\n")
+    for other in ("floor", "L"):
+        zones = zones.replace(f'name = "{other}"', f'name = "{other}"\nmaterial = "rock"')
+    (work / "z.toml").write_text(zones)
+    subprocess.run([str(pathlib.Path(sys.argv[1]).resolve()), "run", "z.toml", "--quiet"], cwd=work, check=True)
+    check_zones(work / "z")
 print("frames agree with the tables")

@@ -28,7 +28,7 @@ struct Ran {
     const Simulation& s = ready.sim;
     for (std::size_t i = 0; i < s.scene->blocks.size(); ++i) {
       if (s.scene->blocks.name(i) != name) continue;
-      return centroid(s.motion.state.x, s.motion.state.y, i) -
+      return centroid(s.motion.state.position, i) -
              Vec2{s.scene->blocks.centroid_x[i], s.scene->blocks.centroid_y[i]};
     }
     ADD_FAILURE() << "no block is called " << name;

@@ -205,7 +205,7 @@ TEST(RunModel, TwoInOneProcessDoNotMeet) {
   Result<PreparedRun> a = prepared(falling), b = prepared(falling);
   ASSERT_TRUE(a.ok() && b.ok());
   const Result<Outcome> first = run_model(a.value(), {}), second = run_model(b.value(), {});
-  EXPECT_EQ(a.value().sim.motion.state.x, b.value().sim.motion.state.x);
+  EXPECT_EQ(a.value().sim.motion.state.position.x, b.value().sim.motion.state.position.x);
   EXPECT_EQ(first.value().steps, second.value().steps);
 }
 

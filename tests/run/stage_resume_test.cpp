@@ -246,6 +246,17 @@ TEST(StageResume, ResumesToTheSameBits) {
   expect_resumed(everything);
 }
 
+/// Blocks that are meshed, and yield, in stages that excavate, bolt, load, drown and shake them.
+TEST(StageResume, ResumesToTheSameBitsWithZones) {
+  std::string model = everything;
+  model.insert(model.find("[joints.j]"),
+               "yield = { friction_angle = 35, cohesion = 2e5, tensile_strength = 5e4 }\n");
+  model += "[zones]\nsize = 2.0\n";
+  for (std::size_t at = 0; (at = model.find("duration = 2.0\n", at)) != std::string::npos;)
+    model.replace(at, 14, "duration = 9.0");
+  expect_resumed(model);
+}
+
 /// Joints with dashpots of their own.
 TEST(StageResume, ResumesToTheSameBitsWithRestitution) {
   for (const char* restitution : {"restitution = \"housner\"\n", "restitution = 0.3\n"}) {

@@ -73,8 +73,8 @@ TEST(Stages, EquilibriumIsThatOfStatics) {
     const double settlement =
         weight / (2.0 * spring) * 3.0 + weight / young * (0.5 + 1.0) + 0.5 * weight / young;
     const MonitorPoint& m = ready.monitors[0];
-    EXPECT_NEAR(displacement_of(ready.sim.motion.state, m.block, m.weight).y / -settlement, 1.0,
-                1e-3)
+    EXPECT_NEAR(displacement_of(ready.sim.scene->blocks, ready.sim.motion.state, m).y / -settlement,
+                1.0, 1e-3)
         << method;
   }
 }
@@ -332,7 +332,7 @@ TEST(Stages, ResetAndDampingApplyToTheirStage) {
   const Outcome o = run(ready);
   EXPECT_EQ(o.status, Status::completed);
   const MonitorPoint& m = ready.monitors[0];
-  EXPECT_LT(norm(displacement_of(ready.sim.motion.state, m.block, m.weight)), 1e-9);
+  EXPECT_LT(norm(displacement_of(ready.sim.scene->blocks, ready.sim.motion.state, m)), 1e-9);
   EXPECT_EQ(ready.sim.motion.damping.local, 0.0);
   EXPECT_EQ(ready.sim.motion.damping.contact, 0.05);
 }
@@ -343,8 +343,8 @@ TEST(Stages, OneByTimeChangesNothing) {
   PreparedRun b = prepared(tower("[[stage]]\nduration = 0.05\n[solver]\n"));
   run(a);
   run(b);
-  EXPECT_EQ(a.sim.motion.state.x, b.sim.motion.state.x);
-  EXPECT_EQ(a.sim.motion.state.vy, b.sim.motion.state.vy);
+  EXPECT_EQ(a.sim.motion.state.position.x, b.sim.motion.state.position.x);
+  EXPECT_EQ(a.sim.motion.state.velocity.y, b.sim.motion.state.velocity.y);
 }
 
 }  // namespace

@@ -77,8 +77,8 @@ TEST(Activation, OfAFrameThatMoves) {
   const double t = still.motion.state.time - began;
   EXPECT_EQ(moves.motion.state.time, still.motion.state.time);
   for (std::size_t i = 0; i < still.scene->blocks.size(); ++i) {
-    const Vec2 apart = centroid(still.motion.state.x, still.motion.state.y, i) -
-                       centroid(moves.motion.state.x, moves.motion.state.y, i);
+    const Vec2 apart =
+        centroid(still.motion.state.position, i) - centroid(moves.motion.state.position, i);
     EXPECT_NEAR(norm(apart - t * v), 0.0, 1e-9) << i;
   }
   EXPECT_LT(std::abs(account_energy(moves).error), 1e-6);

@@ -39,7 +39,7 @@ deactivate = ["static"]
 )";
   const Ran r = ran(lone(stands + "activate = [\"far\"]\n", "[0, -9.81]"));
   const Simulation& s = r.ready.sim;
-  EXPECT_LT(norm(centroid(s.motion.state.vx, s.motion.state.vy, 0)), 1e-7);
+  EXPECT_LT(norm(centroid(s.motion.state.velocity, 0)), 1e-7);
   Instant now;
   observe(s, now);
   const std::vector<Vec2> reaction = reactions(s, now);
@@ -55,7 +55,7 @@ activate = ["far"]
   // There are no forces to take over: it sinks with the terminal velocity of the dashpots, m g/(rho
   // c_p A).
   const double speed = std::sqrt(10e9 * 0.8 / (1.2 * 0.6) / 2500.0);
-  EXPECT_NEAR(centroid(f.motion.state.vx, f.motion.state.vy, 0).y / (-9.81 / speed), 1.0, 0.01);
+  EXPECT_NEAR(centroid(f.motion.state.velocity, 0).y / (-9.81 / speed), 1.0, 0.01);
 }
 
 /// Where two boundaries meet, the forces are taken over once.
@@ -83,7 +83,7 @@ activate = ["base", "flanks"]
 )",
                          "[0, -9.81]"));
   const Simulation& s = r.ready.sim;
-  EXPECT_LT(norm(centroid(s.motion.state.vx, s.motion.state.vy, 0)), 1e-7);
+  EXPECT_LT(norm(centroid(s.motion.state.velocity, 0)), 1e-7);
   Instant now;
   observe(s, now);
   const std::vector<Vec2> reaction = reactions(s, now);
@@ -111,7 +111,7 @@ activate = ["stiff"]
 )",
                          "[0, -9.81]"));
   const Simulation& s = r.ready.sim;
-  EXPECT_LT(norm(centroid(s.motion.state.vx, s.motion.state.vy, 0)), 1e-7);
+  EXPECT_LT(norm(centroid(s.motion.state.velocity, 0)), 1e-7);
   EXPECT_LT(r.outcome.largest_energy_error, 1e-6);
 }
 
@@ -156,8 +156,8 @@ activate = ["far"]
   const Simulation& s = r.ready.sim;
   double fastest = 0.0;
   for (std::size_t k = 0; k < 3; ++k) {
-    fastest =
-        std::max({fastest, std::abs(s.motion.state.vx[k][0]), std::abs(s.motion.state.vy[k][0])});
+    fastest = std::max({fastest, std::abs(s.motion.state.velocity.x[k][0]),
+                        std::abs(s.motion.state.velocity.y[k][0])});
   }
   EXPECT_LT(fastest, 1e-5);
 }

@@ -10,10 +10,10 @@ namespace edda {
 inline Vec2 contact_resultant(const Simulation& sim, std::size_t i) {
   const Motion& motion = sim.motion;
   const BlockSet& b = sim.scene->blocks;
-  NodalForces on;
+  BodyVectors on;
   sum_faces(on, b, motion.contacts,
             corner_forces(motion.contacts, motion.tiled.tiles, b, motion.pose));
-  return resultant(vectors_of(on.x, on.y, i));
+  return resultant(vectors_of(on, i));
 }
 
 }  // namespace edda

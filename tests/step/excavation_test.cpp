@@ -52,7 +52,7 @@ double risen(const Simulation& sim) {
   std::size_t above = 0;
   for (std::size_t i = 0; i < sim.scene->blocks.size(); ++i) {
     if (sim.scene->blocks.centroid_y[i] + sim.scene->blocks.origin.y < 2.0) continue;
-    sum += centroid(sim.motion.state.x, sim.motion.state.y, i).y - sim.scene->blocks.centroid_y[i];
+    sum += centroid(sim.motion.state.position, i).y - sim.scene->blocks.centroid_y[i];
     ++above;
   }
   EXPECT_EQ(above, 2u);

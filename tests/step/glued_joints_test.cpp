@@ -63,14 +63,14 @@ double gone_ahead(const std::string& toml, bool glued, double a, int steps,
   damping.local = 0.0;
   change_damping(sim, damping, true);
   const std::size_t b = sim.scene->blocks.size() - 1;
-  const Vec2 from = centroid(sim.motion.state.x, sim.motion.state.y, b);
+  const Vec2 from = centroid(sim.motion.state.position, b);
   const double balance = energy_balance(sim).balance(), time = sim.motion.state.time;
   change(sim);
   for (int k = 0; k < steps; ++k) EXPECT_FALSE(step(sim).has_value());
   const EnergyBalance after = energy_balance(sim);
   EXPECT_NEAR(after.balance(), balance, 1e-6 * after.scale()) << toml.substr(toml.size() - 40);
   const double t = sim.motion.state.time - time;
-  return norm(centroid(sim.motion.state.x, sim.motion.state.y, b) - from) / (0.5 * a * t * t);
+  return norm(centroid(sim.motion.state.position, b) - from) / (0.5 * a * t * t);
 }
 
 /// A jump of forces counts half in the step in the middle of which it occurs: k steps later a block

@@ -35,10 +35,9 @@ inline Simulation glued(const std::string& geometry, double damping = 0.0,
 /// Acceleration of every node in the present state.
 inline Nodes accelerate(Simulation& s, bool along_x) {
   for (std::size_t i = 0; i < s.scene->blocks.size(); ++i) {
-    place_vertices(s.scene->blocks, s.motion.state.x, s.motion.state.y, i, s.motion.pose.x,
-                   s.motion.pose.y);
+    place_vertices(s.scene->blocks, s.motion.state.position, i, s.motion.pose.x, s.motion.pose.y);
   }
-  evaluate_at_rest(s, 1.0);
+  reevaluate_at_n(s, 1.0);
   sum_face_forces(s);
   gather_forces(s.motion.forces, s.scene->blocks, s.motion.state, s.motion.pose,
                 s.motion.on_contacts, s.attached.springs, {0, 0});
@@ -53,7 +52,7 @@ inline Nodes accelerate(Simulation& s, bool along_x) {
 
 /// 2/omega_max of the assembled system, linear around the present state.
 inline double true_critical_step(Simulation& s, int rounds = 3000) {
-  const Nodes x0 = s.motion.state.x, y0 = s.motion.state.y;
+  const Nodes x0 = s.motion.state.position.x, y0 = s.motion.state.position.y;
   const std::size_t nb = s.scene->blocks.size();
   std::mt19937 rng(1);
   std::uniform_real_distribution<double> u(-1.0, 1.0);
@@ -74,8 +73,8 @@ inline double true_critical_step(Simulation& s, int rounds = 3000) {
     const double scale = 1.0 / std::sqrt(size), epsilon = 1e-7;
     for (std::size_t k = 0; k < 3; ++k) {
       for (std::size_t i = 0; i < nb; ++i) {
-        s.motion.state.x[k][i] = x0[k][i] + epsilon * scale * vx[k][i];
-        s.motion.state.y[k][i] = y0[k][i] + epsilon * scale * vy[k][i];
+        s.motion.state.position.x[k][i] = x0[k][i] + epsilon * scale * vx[k][i];
+        s.motion.state.position.y[k][i] = y0[k][i] + epsilon * scale * vy[k][i];
       }
     }
     Nodes ax = accelerate(s, true), ay = accelerate(s, false);
@@ -95,8 +94,8 @@ inline double true_critical_step(Simulation& s, int rounds = 3000) {
     }
     lambda = std::max(lambda, product);
   }
-  s.motion.state.x = x0;
-  s.motion.state.y = y0;
+  s.motion.state.position.x = x0;
+  s.motion.state.position.y = y0;
   return 2.0 / std::sqrt(lambda);
 }
 

@@ -63,8 +63,11 @@ TEST(Invariants, AreSeenWhereTheyAreBroken) {
         << what << ": " << broken_invariant(sim);
   };
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  expect("node 1 of block 1 is not finite",
-         [&](Simulation& s, std::size_t) { s.motion.state.vx[1][1] = nan; });
+  expect("block 1 is not finite",
+         [&](Simulation& s, std::size_t) { s.motion.state.velocity.x[1][1] = nan; });
+  expect("block 1 is not finite", [&](Simulation& s, std::size_t) {
+    s.motion.state.velocity.modes.x[s.scene->blocks.modes(1)[0]] = nan;
+  });
   expect("edges are out of range", [](Simulation& s, std::size_t k) {
     std::swap(s.motion.contacts.edge[k], s.motion.contacts.facing[k]);
   });

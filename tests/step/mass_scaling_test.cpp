@@ -113,8 +113,8 @@ TEST(MassScaling, InMotionKeepsMomentumAndTheEnergyBalance) {
   auto momentum = [&] {
     Vec2 sum;
     for (std::size_t k = 0; k < 3; ++k) {
-      sum +=
-          sim.motion.masses.node[k][2] * Vec2{sim.motion.state.vx[k][2], sim.motion.state.vy[k][2]};
+      sum += sim.motion.masses.node[k][2] *
+             Vec2{sim.motion.state.velocity.x[k][2], sim.motion.state.velocity.y[k][2]};
     }
     return sum;
   };

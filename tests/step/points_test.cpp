@@ -32,7 +32,7 @@ Id named(const Simulation& s, const char* name) {
 }
 
 Vec2 velocity(const Simulation& s, const char* name) {
-  return centroid(s.motion.state.vx, s.motion.state.vy, named(s, name));
+  return centroid(s.motion.state.velocity, named(s, name));
 }
 
 /// Makes steps to a time.
@@ -62,7 +62,7 @@ TEST(PointRuns, SlideByCoulomb) {
   start(sim, 0.5);
   go_on(sim, 0.5);
   const Id i = named(sim, "slider");
-  const Vec2 moved = centroid(sim.motion.state.x, sim.motion.state.y, i) -
+  const Vec2 moved = centroid(sim.motion.state.position, i) -
                      Vec2{sim.scene->blocks.centroid_x[i], sim.scene->blocks.centroid_y[i]};
   const double a = std::numbers::pi / 4.0;
   const double exact =
@@ -75,7 +75,7 @@ TEST(PointRuns, FrictionHolds) {
   start(sim, 0.5);
   go_on(sim, 0.5);
   const Id i = named(sim, "slider");
-  const Vec2 moved = centroid(sim.motion.state.x, sim.motion.state.y, i) -
+  const Vec2 moved = centroid(sim.motion.state.position, i) -
                      Vec2{sim.scene->blocks.centroid_x[i], sim.scene->blocks.centroid_y[i]};
   EXPECT_LT(norm(moved), 1e-3);
 }
@@ -183,8 +183,8 @@ TEST(PointRuns, ResumeToTheSameBits) {
   go_on(whole, 0.2);
   go_on(resumed, 0.2);
   for (std::size_t k = 0; k < 3; ++k) {
-    EXPECT_EQ(whole.motion.state.x[k], resumed.motion.state.x[k]);
-    EXPECT_EQ(whole.motion.state.vy[k], resumed.motion.state.vy[k]);
+    EXPECT_EQ(whole.motion.state.position.x[k], resumed.motion.state.position.x[k]);
+    EXPECT_EQ(whole.motion.state.velocity.y[k], resumed.motion.state.velocity.y[k]);
   }
   EXPECT_EQ(whole.point_contacts.friction, resumed.point_contacts.friction);
   EXPECT_EQ(account_energy(whole).balance(), account_energy(resumed).balance());
@@ -207,7 +207,7 @@ TEST(PointRuns, AreStableAtTheBound) {
   go_on(sim, 1.0);
   double fastest = 0.0;
   for (std::size_t i = 0; i < sim.scene->blocks.size(); ++i)
-    fastest = std::max(fastest, norm(centroid(sim.motion.state.vx, sim.motion.state.vy, i)));
+    fastest = std::max(fastest, norm(centroid(sim.motion.state.velocity, i)));
   EXPECT_LT(fastest, 1e-2);
 }
 

@@ -51,7 +51,7 @@ Simulation on_its_tip(double apex) {
   if (!model.ok()) ADD_FAILURE() << to_string(model.faults()[0]);
   Result<Simulation> sim = Simulation::create(std::move(model.value()));
   if (!sim.ok()) ADD_FAILURE() << to_string(sim.faults()[0]);
-  for (auto& y : sim.value().motion.state.y) y[1] -= 1e-5;
+  for (auto& y : sim.value().motion.state.position.y) y[1] -= 1e-5;
   return std::move(sim.value());
 }
 
@@ -76,8 +76,8 @@ bool grows(const std::string& model, double damping, double step,
   for (std::size_t k = 0; k < 3; ++k) {
     for (std::size_t i = 0; i < s.scene->blocks.size(); ++i) {
       if (s.scene->blocks.fixed[i]) continue;
-      s.motion.state.vx[k][i] = u(rng);
-      s.motion.state.vy[k][i] = u(rng);
+      s.motion.state.velocity.x[k][i] = u(rng);
+      s.motion.state.velocity.y[k][i] = u(rng);
     }
   }
   constexpr int steps = 4000;
@@ -85,7 +85,7 @@ bool grows(const std::string& model, double damping, double step,
   for (int n = 0; n < steps; ++n) {
     if (edda::step(s)) return true;
     for (std::size_t i = 0; i < s.scene->blocks.size(); ++i) {
-      if (!(std::abs(s.motion.state.vx[0][i]) < 1e-4)) return true;
+      if (!(std::abs(s.motion.state.velocity.x[0][i]) < 1e-4)) return true;
     }
   }
   return false;

@@ -76,13 +76,13 @@ void expect_faces_follow(const Simulation& sim) {
     if (listed_since) continue;
     for (const FaceField& field : face_fields) expect_field(field, row.state, face.state, k);
   }
-  NodalForces on;
+  BodyVectors on;
   sum_faces(on, b, faces, corner_forces(faces, tiles, b, motion.pose));
   for (const Id i : tiles.blocks) {
-    for (std::size_t n = 0; n < nodes_per_block; ++n) {
-      EXPECT_EQ(motion.on_contacts.x[n][i], on.x[n][i]) << "block " << i;
-      EXPECT_EQ(motion.on_contacts.y[n][i], on.y[n][i]) << "block " << i;
-    }
+    const BodyVector here = vector_of(b, motion.on_contacts, i), there = vector_of(b, on, i);
+    EXPECT_EQ(here.nodes, there.nodes) << "block " << i;
+    for (std::size_t a = 0; a < here.count; ++a)
+      EXPECT_EQ(here.modes[a], there.modes[a]) << "block " << i;
   }
 }
 
@@ -141,7 +141,7 @@ TEST(TileStep, FacesThatAreTakenOutAndPutBackAreTheSame) {
     ASSERT_FALSE(step(asked));
     if (n % 3 == 0) take_faces(asked);
     if (n % 5 == 0) put_faces(asked, take_faces(asked));
-    ASSERT_EQ(ahead.motion.state.x, asked.motion.state.x) << n;
+    ASSERT_EQ(ahead.motion.state.position.x, asked.motion.state.position.x) << n;
     ASSERT_EQ(ahead.motion.on_contacts.y, asked.motion.on_contacts.y) << n;
   }
   EXPECT_GT(ahead.accounts.open_close.switched, 20u);
@@ -182,7 +182,7 @@ void compare_asleep_and_awake(const std::string& text, int steps) {
   for (int n = 0; n < steps; ++n) {
     ASSERT_FALSE(step(sleeping));
     ASSERT_FALSE(step(awake));
-    ASSERT_EQ(sleeping.motion.state.x, awake.motion.state.x) << n;
+    ASSERT_EQ(sleeping.motion.state.position.x, awake.motion.state.position.x) << n;
     ASSERT_EQ(sleeping.motion.on_contacts.y, awake.motion.on_contacts.y) << n;
     ASSERT_EQ(sleeping.accounts.penetration, awake.accounts.penetration) << n;
     for (const double rest : sleeping.motion.tiled.tiles.rest) asleep += rest > 0.0 ? 1 : 0;

@@ -63,7 +63,7 @@ std::string poured(unsigned seed, const Settings& s) {
 std::vector<Vec2> centroids(const Simulation& sim) {
   std::vector<Vec2> at;
   for (std::size_t i = 0; i < sim.scene->blocks.size(); ++i) {
-    at.push_back(centroid(sim.motion.state.x, sim.motion.state.y, i));
+    at.push_back(centroid(sim.motion.state.position, i));
   }
   return at;
 }
@@ -90,7 +90,7 @@ double largest_displacement(const Simulation& sim, const std::vector<Vec2>& from
 double fastest_block(const Simulation& sim) {
   double fastest = 0.0;
   for (std::size_t i = 0; i < sim.scene->blocks.size(); ++i) {
-    fastest = std::max(fastest, norm(centroid(sim.motion.state.vx, sim.motion.state.vy, i)));
+    fastest = std::max(fastest, norm(centroid(sim.motion.state.velocity, i)));
   }
   return fastest;
 }

@@ -112,7 +112,7 @@ double kinetic_energy_of(const Simulation& sim) {
   double sum = 0.0;
   for (std::size_t i = 0; i < sim.scene->blocks.size(); ++i) {
     if (is_free(sim.scene->blocks, sim.motion.state, i)) {
-      sum += kinetic_energy(sim.motion.masses, sim.motion.state.vx, sim.motion.state.vy, i);
+      sum += kinetic_energy(sim.motion.masses, sim.scene->blocks, sim.motion.state.velocity, i);
     }
   }
   return sum;
@@ -148,11 +148,7 @@ Answer answer_of(const Case& c, Way way, double most) {
   RunOptions options;
   options.last_stage = last;
   double before = 0.0;
-  const Nodes none = [&] {
-    Nodes zero;
-    for (auto& values : zero) values.assign(sim.scene->blocks.size(), 0.0);
-    return zero;
-  }();
+  const BodyVectors none = zero_vectors(sim.scene->blocks);
   const std::clock_t start = std::clock();
   std::atomic<bool> stop = false;
   options.stop = &stop;
@@ -160,7 +156,7 @@ Answer answer_of(const Case& c, Way way, double most) {
     if (static_cast<double>(std::clock() - start) > most * CLOCKS_PER_SEC) stop = true;
     if (way != Way::kinetic) return false;
     const double now = kinetic_energy_of(sim);
-    if (now < before) change_velocities(sim, none, none);
+    if (now < before) change_velocities(sim, none);
     before = now < before ? 0.0 : now;
     return false;
   };

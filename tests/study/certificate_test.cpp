@@ -95,10 +95,10 @@ TEST(Certificate, CountsDeepClosures) {
   Simulation sim = drawn(ramp(rough + "kn = 1e6\nks = 1e6\n"));
   State& state = sim.motion.state;
   for (std::size_t k = 0; k < nodes_per_block; ++k) {
-    state.x[k][1] -= 0.02 * 0.5;
-    state.y[k][1] -= 0.02 * std::sqrt(0.75);
+    state.position.x[k][1] -= 0.02 * 0.5;
+    state.position.y[k][1] -= 0.02 * std::sqrt(0.75);
   }
-  place_vertices(sim.scene->blocks, state.x, state.y, 1, sim.motion.pose.x, sim.motion.pose.y);
+  place_vertices(sim.scene->blocks, state.position, 1, sim.motion.pose.x, sim.motion.pose.y);
   close_all(sim);
   EXPECT_FALSE(fails(sim, 0.9 * exact));
 }

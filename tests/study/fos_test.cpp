@@ -61,8 +61,12 @@ void expect_same_for_all_threads(const Model& model) {
     EXPECT_EQ(one.files, more.files) << threads;
     ASSERT_EQ(one.result.failed.has_value(), more.result.failed.has_value()) << threads;
     if (!one.result.failed) continue;
-    EXPECT_EQ(one.result.failed->motion.state.x, more.result.failed->motion.state.x) << threads;
-    EXPECT_EQ(one.result.failed->motion.state.vy, more.result.failed->motion.state.vy) << threads;
+    EXPECT_EQ(one.result.failed->motion.state.position.x,
+              more.result.failed->motion.state.position.x)
+        << threads;
+    EXPECT_EQ(one.result.failed->motion.state.velocity.y,
+              more.result.failed->motion.state.velocity.y)
+        << threads;
   }
 }
 

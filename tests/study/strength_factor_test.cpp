@@ -82,8 +82,8 @@ TEST(StrengthFactor, LivesInACheckpoint) {
     EXPECT_EQ(b.motion.laws.rows[0].residual_friction, a.motion.laws.rows[0].residual_friction);
     EXPECT_EQ(b.motion.contacts.slip_so_far.values(), a.motion.contacts.slip_so_far.values());
     for (int k = 0; k < 300; ++k) ASSERT_FALSE(step(a) || step(b));
-    EXPECT_EQ(a.motion.state.x, b.motion.state.x) << law;
-    EXPECT_EQ(a.motion.state.vy, b.motion.state.vy) << law;
+    EXPECT_EQ(a.motion.state.position.x, b.motion.state.position.x) << law;
+    EXPECT_EQ(a.motion.state.velocity.y, b.motion.state.velocity.y) << law;
   }
 }
 

@@ -55,6 +55,7 @@ BROKEN = {
     "a number of nodes": (
         {"src/app/b.cpp": "void f() {\n  for (std::size_t k = 0; k < 3; ++k) g(k);\n}\n"},
         "src/app/b.cpp:2: only blocks may know how many nodes a block has"),
+    "modes": ({"src/app/b.cpp": "auto m = b.modes(i);\n"}, "src/app/b.cpp:1: only blocks, forces, implicit, integrate may know the modes"),
     "a circle of files": (
         {"src/lines/a.hpp": "#include \"lines/b.hpp\"\n", "src/lines/b.hpp": "#include \"lines/a.hpp\"\n"},
         "files include each other in a circle: lines/a.hpp -> lines/b.hpp -> lines/a.hpp"),

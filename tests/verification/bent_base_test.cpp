@@ -42,7 +42,7 @@ double speed_under(const Base& base, double part) {
           ", 0]\nhistory = 'tests/verification/push_slowly.csv'\n";
   Simulation sim = scene(text);
   run(sim, [](Simulation&) {});
-  return centroid(sim.motion.state.vx, sim.motion.state.vy, 1).x;
+  return centroid(sim.motion.state.velocity, 1).x;
 }
 
 /// Shear force of the joint: the load less the damping force, 200 1/s times the mass times the

@@ -144,9 +144,10 @@ type = 'stress'
 duration = 0.02
 )");
     const State& s = r.ready.sim.motion.state;
-    ASSERT_GT(s.bend.size(), 50u);
+    ASSERT_GT(s.position.modes.size(), 50u);
     double most = 0.0;
-    for (std::size_t m = 0; m < s.bend.size(); ++m) most = std::max(most, norm(s.bend[m]));
+    for (std::size_t m = 0; m < s.position.modes.size(); ++m)
+      most = std::max(most, norm(s.position.modes[m]));
     // m; the stress strains the blocks by 2e-4. What faces carry at their ends lies inward of
     // corners by a part of their closure.
     EXPECT_LT(most, 1e-7) << solver;
@@ -182,7 +183,8 @@ polygon = [[-6, -1], [6, -1], [6, 0], [-6, 0]]
   EXPECT_GT(r.ready.sim.accounts.open_close.switched, 20u);
   double most = 0.0;
   const State& s = r.ready.sim.motion.state;
-  for (std::size_t m = 0; m < s.bend.size(); ++m) most = std::max(most, norm(s.bend[m]));
+  for (std::size_t m = 0; m < s.position.modes.size(); ++m)
+    most = std::max(most, norm(s.position.modes[m]));
   EXPECT_GT(most, 1e-6);
 }
 

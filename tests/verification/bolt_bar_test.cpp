@@ -33,17 +33,17 @@ const std::string grouted =
 /// Moves the upper block and computes the equilibrium of the bolt there.
 void shift_upper(Simulation& sim, Vec2 by) {
   for (std::size_t k = 0; k < 3; ++k) {
-    sim.motion.state.x[k][1] += by.x;
-    sim.motion.state.y[k][1] += by.y;
+    sim.motion.state.position.x[k][1] += by.x;
+    sim.motion.state.position.y[k][1] += by.y;
   }
-  update_bolts(sim.attached.bolts, sim.motion.state);
+  update_bolts(sim.attached.bolts, sim.scene->blocks, sim.motion.state);
 }
 
 /// Force of the bolts on the upper block, N.
 Vec2 on_upper(const Simulation& sim) {
-  std::array<Vec2, 3> f{};
-  add_bolts(f, sim.attached.bolts, 1);
-  return f[0] + f[1] + f[2];
+  BlockForces f{sim.scene->blocks, 1};
+  add_bolts(f, sim.attached.bolts);
+  return resultant(f.sum.nodes);
 }
 
 /// Opens the joint in small steps until `until` is true. Returns the force across the joint and its
@@ -177,26 +177,31 @@ TEST(Bolt, ForcesAreGradients) {
   const double angle[2] = {0.5, 0.53};
   for (std::size_t i = 0; i < 2; ++i) {
     for (std::size_t k = 0; k < 3; ++k) {
-      const Vec2 p =
-          rotated({1.001 * sim.motion.state.x[k][i], sim.motion.state.y[k][i]}, angle[i]);
-      sim.motion.state.x[k][i] = p.x + 0.01 * static_cast<double>(i);
-      sim.motion.state.y[k][i] = p.y + 0.02 * static_cast<double>(i);
+      const Vec2 p = rotated(
+          {1.001 * sim.motion.state.position.x[k][i], sim.motion.state.position.y[k][i]}, angle[i]);
+      sim.motion.state.position.x[k][i] = p.x + 0.01 * static_cast<double>(i);
+      sim.motion.state.position.y[k][i] = p.y + 0.02 * static_cast<double>(i);
     }
   }
   const auto energy = [&] {
-    update_bolts(sim.attached.bolts, sim.motion.state);
+    update_bolts(sim.attached.bolts, sim.scene->blocks, sim.motion.state);
     return elastic_energy(sim.attached.bolts);
   };
   energy();
-  std::array<std::array<Vec2, 3>, 2> f{};
-  for (std::size_t i = 0; i < 2; ++i) add_bolts(f[i], sim.attached.bolts, i);
+  std::array<NodeVectors, 2> f{};
+  for (std::size_t i = 0; i < 2; ++i) {
+    BlockForces on{sim.scene->blocks, i};
+    add_bolts(on, sim.attached.bolts);
+    f[i] = on.sum.nodes;
+  }
   double scale = 0.0, torque = 0.0;
   Vec2 sum;
   for (std::size_t i = 0; i < 2; ++i) {
     for (std::size_t k = 0; k < 3; ++k) {
       scale = std::max(scale, norm(f[i][k]));
       sum += f[i][k];
-      torque += cross({sim.motion.state.x[k][i], sim.motion.state.y[k][i]}, f[i][k]);
+      torque +=
+          cross({sim.motion.state.position.x[k][i], sim.motion.state.position.y[k][i]}, f[i][k]);
     }
   }
   EXPECT_GT(scale, 1e4);
@@ -205,14 +210,14 @@ TEST(Bolt, ForcesAreGradients) {
   const double d = 1e-6;
   for (std::size_t i = 0; i < 2; ++i) {
     for (std::size_t k = 0; k < 3; ++k) {
-      for (auto* place : {&sim.motion.state.x[k][i], &sim.motion.state.y[k][i]}) {
+      for (auto* place : {&sim.motion.state.position.x[k][i], &sim.motion.state.position.y[k][i]}) {
         const double at = *place;
         *place = at + d;
         const double more = energy();
         *place = at - d;
         const double less = energy();
         *place = at;
-        const double force = place == &sim.motion.state.x[k][i] ? f[i][k].x : f[i][k].y;
+        const double force = place == &sim.motion.state.position.x[k][i] ? f[i][k].x : f[i][k].y;
         EXPECT_NEAR((less - more) / (2.0 * d), force, 1e-5 * scale);
       }
     }
@@ -260,8 +265,8 @@ TEST(Bolt, HoldsABlockUp) {
     run(sim, [&](Simulation& s) { keep_largest(error, account_energy(s).error); });
     const double weight = 2000.0 * 9.81 * 4.0, steel = young * std::numbers::pi * 2.25e-4 / 2.0;
     const double longer = (weight - 0.5 * pretension) * 4.0 / steel;
-    const Vec2 lower_end =
-        node_place(sim.attached.bolts, sim.motion.state, 0) + sim.scene->blocks.origin;
+    const Vec2 lower_end = node_place(sim.attached.bolts, sim.scene->blocks, sim.motion.state, 0) +
+                           sim.scene->blocks.origin;
     expect_relative({35, brief(1e-3 * pretension) + " kN", "elongation of the bolt", "m"},
                     -lower_end.y, longer, 1e-3);
     EXPECT_NEAR(sim.attached.bolts.bars.force[0] / weight, 1.0, 1e-3);

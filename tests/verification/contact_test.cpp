@@ -63,7 +63,8 @@ history_every = 0.001
         const Vec2 now = contact_resultant(s, 1);
         double speed = 0.0;
         for (std::size_t k = 0; k < 3; ++k) {
-          speed = std::max(speed, norm(Vec2{s.motion.state.vx[k][1], s.motion.state.vy[k][1]}));
+          speed = std::max(
+              speed, norm(Vec2{s.motion.state.velocity.x[k][1], s.motion.state.velocity.y[k][1]}));
         }
         const double jump = norm(now - force) / (p * speed * s.motion.state.step);
         result.worst_jump = std::max(result.worst_jump, jump);
@@ -137,9 +138,9 @@ Momentum momentum(const Simulation& s) {
   for (std::size_t i = 0; i < s.scene->blocks.size(); ++i) {
     if (s.scene->blocks.fixed[i]) continue;
     for (std::size_t k = 0; k < 3; ++k) {
-      const Vec2 v{s.motion.state.vx[k][i], s.motion.state.vy[k][i]};
-      const Vec2 x =
-          Vec2{s.motion.state.x[k][i], s.motion.state.y[k][i]} - 0.5 * s.motion.state.step * v;
+      const Vec2 v{s.motion.state.velocity.x[k][i], s.motion.state.velocity.y[k][i]};
+      const Vec2 x = Vec2{s.motion.state.position.x[k][i], s.motion.state.position.y[k][i]} -
+                     0.5 * s.motion.state.step * v;
       const double mass = s.motion.masses.node[k][i];
       m.linear += mass * v;
       m.angular += mass * cross(x, v);
@@ -148,8 +149,8 @@ Momentum momentum(const Simulation& s) {
     }
     const BlockModes modes = s.scene->blocks.modes(i);
     for (std::size_t a = 0; a < modes.count; ++a) {
-      const Vec2 v = s.motion.state.bend_rate[modes[a]];
-      const Vec2 q = s.motion.state.bend[modes[a]] - 0.5 * s.motion.state.step * v;
+      const Vec2 v = s.motion.state.velocity.modes[modes[a]];
+      const Vec2 q = s.motion.state.position.modes[modes[a]] - 0.5 * s.motion.state.step * v;
       m.angular += cross(q, v) / s.motion.masses.mode_inverse[i];
     }
   }
@@ -186,7 +187,7 @@ TEST(Heap, MomentumInCollisions) {
 std::vector<Vec2> positions(const Simulation& s) {
   std::vector<Vec2> p;
   for (std::size_t i = 0; i < s.scene->blocks.size(); ++i) {
-    p.push_back(centroid(s.motion.state.x, s.motion.state.y, i) + s.scene->blocks.origin);
+    p.push_back(centroid(s.motion.state.position, i) + s.scene->blocks.origin);
   }
   return p;
 }

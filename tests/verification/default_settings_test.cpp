@@ -193,12 +193,11 @@ TEST(DefaultSettings, TopplingAboutAToe) {
           dt * gravity * r / inertia * std::sin(radians(angle) - std::atan2(1.0, height) + theta);
       theta += dt * rate;
     }
-    const Rotation turned =
-        rotation(deformation(sim.scene->blocks, sim.motion.state.x, sim.motion.state.y, 1));
+    const Rotation turned = rotation(deformation(sim.scene->blocks, sim.motion.state.position, 1));
     // A percent is due to the block's elasticity at the sudden start: it rocks on its base.
     expect_relative({54, slope.label(), "rotation in 0.6 s", "rad"},
                     -std::atan2(turned.s, turned.c), theta, 1.5e-2);
-    const Vec2 toe = weighted(weights, sim.motion.state.x, sim.motion.state.y, 1) - corner;
+    const Vec2 toe = weighted(weights, sim.motion.state.position, 1) - corner;
     expect_at_most({54, slope.label(), "slip of the toe", "m"}, std::abs(slope.down(toe)), 1e-5);
   }
 }

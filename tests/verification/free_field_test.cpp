@@ -53,8 +53,8 @@ Surface shaken(const std::string& sides, bool shear) {
   run(
       sim, [&](Simulation& s) { keep_largest(most.error, account_energy(s).error); },
       [&](Simulation& s) {
-        Vec2 l = vertex_at(s.scene->blocks, s.motion.state.vx, s.motion.state.vy, left);
-        Vec2 m = vertex_at(s.scene->blocks, s.motion.state.vx, s.motion.state.vy, middle);
+        Vec2 l = corner_at(s.scene->blocks, s.motion.state.velocity, left);
+        Vec2 m = corner_at(s.scene->blocks, s.motion.state.velocity, middle);
         keep_largest(most.left, component(l, shear));
         keep_largest(most.middle, component(m, shear));
         keep_largest(most.across, component(l, !shear));

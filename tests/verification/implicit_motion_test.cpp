@@ -54,7 +54,7 @@ TEST(ImplicitOscillator, AlgorithmicDampingIsThatOfTheory) {
     for (int n = 0; n < 3; ++n) {
       step(sim);
       x[n] = displacement(sim, 0).x;
-      v[n] = centroid(sim.motion.state.vx, sim.motion.state.vy, 0).x;
+      v[n] = centroid(sim.motion.state.velocity, 0).x;
     }
     const double before = x[0] * v[1] - x[1] * v[0], after = x[1] * v[2] - x[2] * v[1];
     const double measured = std::sqrt(after / before),
@@ -132,7 +132,7 @@ max_displacement_ratio = 1.0
 )";
   Simulation sim = scene(toml + dda(1e-3));
   run(sim, [](Simulation& s) {
-    const Deformation f = deformation(s.scene->blocks, s.motion.state.x, s.motion.state.y, 0);
+    const Deformation f = deformation(s.scene->blocks, s.motion.state.position, 0);
     EXPECT_NEAR(f.xx * f.yy - f.xy * f.yx, 1.0, 1e-4);
   });
 }
@@ -224,8 +224,8 @@ duration = 0.05
     for (std::size_t i = 0; i < s.scene->blocks.size(); ++i) {
       for (std::size_t k = 0; k < 3; ++k) {
         const double m = s.motion.masses.node[k][i];
-        const Vec2 x{s.motion.state.x[k][i], s.motion.state.y[k][i]},
-            v{s.motion.state.vx[k][i], s.motion.state.vy[k][i]};
+        const Vec2 x{s.motion.state.position.x[k][i], s.motion.state.position.y[k][i]},
+            v{s.motion.state.velocity.x[k][i], s.motion.state.velocity.y[k][i]};
         p += m * v;
         turning += m * cross(x, v);
       }
@@ -238,7 +238,7 @@ duration = 0.05
     Simulation sim = scene(model);
     const auto before = momentum(sim);
     run(sim, [](Simulation&) {});
-    EXPECT_LT(centroid(sim.motion.state.vx, sim.motion.state.vy, 0).x, 0.5);  // they have met
+    EXPECT_LT(centroid(sim.motion.state.velocity, 0).x, 0.5);  // they have met
     const auto after = momentum(sim);
     EXPECT_NEAR(after[0], before[0], bound * 2500.0);
     EXPECT_NEAR(after[1], before[1], bound * 2500.0);

@@ -72,10 +72,10 @@ TEST(ImplicitAttempt, LeavesEverythingAsItWas) {
                                        {sim.motion.contacts, sim.motion.tiled}, sim.motion.forces,
                                        sim.accounts.damping_work.joules);
   ASSERT_EQ(attempt, Attempt::too_far);
-  EXPECT_EQ(sim.motion.state.x, state.x);
-  EXPECT_EQ(sim.motion.state.y, state.y);
-  EXPECT_EQ(sim.motion.state.vx, state.vx);
-  EXPECT_EQ(sim.motion.state.vy, state.vy);
+  EXPECT_EQ(sim.motion.state.position.x, state.position.x);
+  EXPECT_EQ(sim.motion.state.position.y, state.position.y);
+  EXPECT_EQ(sim.motion.state.velocity.x, state.velocity.x);
+  EXPECT_EQ(sim.motion.state.velocity.y, state.velocity.y);
   EXPECT_EQ(sim.motion.pose.x, pose.x);
   EXPECT_EQ(sim.motion.pose.y, pose.y);
   std::size_t sliding = 0;
@@ -120,13 +120,13 @@ TEST(ImplicitAttempt, ChangesNothingOfTheNextOne) {
   };
   Simulation once = after(false), again = after(true);
   for (std::size_t k = 0; k < 3; ++k) {
-    EXPECT_NEAR(once.motion.state.x[k][1], again.motion.state.x[k][1], 1e-12);
-    EXPECT_NEAR(once.motion.state.y[k][1], again.motion.state.y[k][1], 1e-12);
+    EXPECT_NEAR(once.motion.state.position.x[k][1], again.motion.state.position.x[k][1], 1e-12);
+    EXPECT_NEAR(once.motion.state.position.y[k][1], again.motion.state.position.y[k][1], 1e-12);
   }
   // Nor do faces that were taken out of their tiles before the step that fails, as by a stage or a
   // checkpoint.
   Simulation resumed = after(true, true);
-  EXPECT_EQ(again.motion.state.x, resumed.motion.state.x);
+  EXPECT_EQ(again.motion.state.position.x, resumed.motion.state.position.x);
   EXPECT_EQ(again.implicit.springs.state, resumed.implicit.springs.state);
   EXPECT_EQ(again.implicit.switched, resumed.implicit.switched);
   expect_same(take_faces(again).now, take_faces(resumed).now);
@@ -164,7 +164,7 @@ Bounce bounce(const std::string& method) {
     for (std::size_t k = 0; k < s.motion.contacts.size(); ++k)
       normal += normal_force(face_row(s, k));
     b.largest = std::max(b.largest, normal);
-    b.up = centroid(s.motion.state.vx, s.motion.state.vy, 1).y;
+    b.up = centroid(s.motion.state.velocity, 1).y;
     const EnergyBalance l = account_energy(s);
     b.damping = l.damping;
     b.error = std::max(b.error, std::abs(l.error));
@@ -190,8 +190,7 @@ double turned(const std::string& mass) {
                                   "mass = '" +
                                       mass + "'\n"));
   run(sim, [](Simulation&) {});
-  const Rotation r =
-      rotation(deformation(sim.scene->blocks, sim.motion.state.x, sim.motion.state.y, 1));
+  const Rotation r = rotation(deformation(sim.scene->blocks, sim.motion.state.position, 1));
   return std::atan2(r.s, r.c);
 }
 

@@ -215,10 +215,10 @@ TEST(Column, SwaysAsItsBondedJointsSay) {
     for (std::size_t i = 1; i < sim.scene->blocks.size(); ++i) {
       const auto q = static_cast<Eigen::Index>(3 * (i - 1));
       for (std::size_t node = 0; node < 3; ++node) {
-        const double x = sim.motion.state.x[node][i] - sim.scene->blocks.centroid_x[i];
-        const double y = sim.motion.state.y[node][i] - sim.scene->blocks.centroid_y[i];
-        sim.motion.state.vx[node][i] = scale * (exact.mode[q] - exact.mode[q + 1] * y);
-        sim.motion.state.vy[node][i] = scale * exact.mode[q + 2] * x;
+        const double x = sim.motion.state.position.x[node][i] - sim.scene->blocks.centroid_x[i];
+        const double y = sim.motion.state.position.y[node][i] - sim.scene->blocks.centroid_y[i];
+        sim.motion.state.velocity.x[node][i] = scale * (exact.mode[q] - exact.mode[q + 1] * y);
+        sim.motion.state.velocity.y[node][i] = scale * exact.mode[q + 2] * x;
       }
     }
     double before = 0.0, first = 0.0, last = 0.0;

@@ -49,13 +49,13 @@ double lost(double kink) {
   Simulation sim = scene(bowl(kink, 0.1));
   const std::size_t block = sim.scene->blocks.size() - 1;
   const auto height = [&] {
-    return (centroid(sim.motion.state.x, sim.motion.state.y, block) + sim.scene->blocks.origin).y;
+    return (centroid(sim.motion.state.position, block) + sim.scene->blocks.origin).y;
   };
   const double first = height();
   double lowest = first, highest = -radius;
   bool passed = false;
   run(sim, [&](Simulation& s) {
-    const Vec2 at = centroid(s.motion.state.x, s.motion.state.y, block) + s.scene->blocks.origin;
+    const Vec2 at = centroid(s.motion.state.position, block) + s.scene->blocks.origin;
     lowest = std::min(lowest, at.y);
     passed = passed || at.x > 0.0;
     if (passed) highest = std::max(highest, at.y);

@@ -9,7 +9,7 @@
 namespace edda {
 
 inline Tensor stress_of(const Simulation& sim, std::size_t i) {
-  const Deformation f = deformation(sim.scene->blocks, sim.motion.state.x, sim.motion.state.y, i);
+  const Deformation f = deformation(sim.scene->blocks, sim.motion.state.position, i);
   return cauchy(stress_in(sim.scene->blocks, i, f), f);
 }
 

@@ -33,19 +33,19 @@ history_every = 0.0031415926535897931
   double area = 0.0, momentum0 = 0.0, worst = 0.0;
   int rows = 0;
   auto swell = [](const Simulation& s) {
-    const Deformation f = deformation(s.scene->blocks, s.motion.state.x, s.motion.state.y, 0);
+    const Deformation f = deformation(s.scene->blocks, s.motion.state.position, 0);
     return f.xx * f.yy - f.xy * f.yx - 1.0;
   };
   auto look = [&](Simulation& s) {
     area += swell(s);
     ++rows;
     // Angular momentum at n - 1/2: r at the half step, so that it is exact in the leapfrog's terms.
-    const Vec2 c = centroid(s.motion.state.x, s.motion.state.y, 0);
+    const Vec2 c = centroid(s.motion.state.position, 0);
     double momentum = 0.0;
     for (std::size_t k = 0; k < 3; ++k) {
-      const Vec2 v{s.motion.state.vx[k][0], s.motion.state.vy[k][0]};
-      const Vec2 r =
-          Vec2{s.motion.state.x[k][0], s.motion.state.y[k][0]} - c - 0.5 * s.motion.state.step * v;
+      const Vec2 v{s.motion.state.velocity.x[k][0], s.motion.state.velocity.y[k][0]};
+      const Vec2 r = Vec2{s.motion.state.position.x[k][0], s.motion.state.position.y[k][0]} - c -
+                     0.5 * s.motion.state.step * v;
       momentum += s.motion.masses.node[k][0] * cross(r, v);
     }
     if (rows == 1) momentum0 = momentum;
@@ -179,9 +179,9 @@ TEST(FreeBlock, NaturalFrequencies) {
     const double shear_x = 2e-3 * mode.rate.xy / size * a * a / (a * a + b * b);
     const double shear_y = 2e-3 * mode.rate.xy / size * b * b / (a * a + b * b);
     for (std::size_t k = 0; k < 3; ++k) {
-      const double x = sim.motion.state.x[k][0], y = sim.motion.state.y[k][0];
-      sim.motion.state.vx[k][0] = 1e-3 * mode.rate.xx / size * x + shear_x * y;
-      sim.motion.state.vy[k][0] = 1e-3 * mode.rate.yy / size * y + shear_y * x;
+      const double x = sim.motion.state.position.x[k][0], y = sim.motion.state.position.y[k][0];
+      sim.motion.state.velocity.x[k][0] = 1e-3 * mode.rate.xx / size * x + shear_x * y;
+      sim.motion.state.velocity.y[k][0] = 1e-3 * mode.rate.yy / size * y + shear_y * x;
     }
     const double exact = std::sqrt(mode.omega2);
     const double amplitude =
@@ -193,7 +193,7 @@ TEST(FreeBlock, NaturalFrequencies) {
     run(
         sim, [](Simulation&) {},
         [&](Simulation& s) {
-          const Deformation f = deformation(s.scene->blocks, s.motion.state.x, s.motion.state.y, 0);
+          const Deformation f = deformation(s.scene->blocks, s.motion.state.position, 0);
           const Tensor e = corotated_strain(f, rotation(f));
           const double q = mode.rate.xx * e.xx + mode.rate.yy * e.yy + mode.rate.xy * e.xy;
           if (before * q < 0.0) {
@@ -313,8 +313,7 @@ polygon = )" + polygon + "\n[solver]\nduration = 1.25\nmass = '" +
     p2 *= (inertia + radius * radius) / (dot(node, node) + radius * radius);
   }
   auto tilt = [&](const Simulation& s) {
-    const Rotation r =
-        rotation(deformation(s.scene->blocks, s.motion.state.x, s.motion.state.y, 1));
+    const Rotation r = rotation(deformation(s.scene->blocks, s.motion.state.position, 1));
     return theta0 - std::atan2(r.s, r.c);  // counted clockwise from the tilt at the start
   };
   Series tilts(5, mass, {"time", "exact", "computed"});

@@ -120,7 +120,7 @@ TEST(NewmarkRecords, OfEveryShapeBothWaysRound) {
           start(sim, started);
           while (sim.motion.state.time < started) ASSERT_FALSE(step(sim).has_value());
           const auto down = [&] {
-            const Vec2 x = centroid(sim.motion.state.x, sim.motion.state.y, 1);
+            const Vec2 x = centroid(sim.motion.state.position, 1);
             return x.x * std::cos(radians(angle)) - x.y * std::sin(radians(angle));
           };
           const double from = down();

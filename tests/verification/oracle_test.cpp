@@ -62,7 +62,7 @@ TEST(ThrownHeap, CornersPassWithoutAJump) {
 std::vector<Vec2> centres(const Simulation& s) {
   std::vector<Vec2> p;
   for (std::size_t i = 0; i < s.scene->blocks.size(); ++i)
-    p.push_back(centroid(s.motion.state.x, s.motion.state.y, i) + s.scene->blocks.origin);
+    p.push_back(centroid(s.motion.state.position, i) + s.scene->blocks.origin);
   return p;
 }
 

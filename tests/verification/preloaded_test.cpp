@@ -25,7 +25,7 @@ Simulation stressed_ramp(double alpha, double phi, const std::string& young, dou
 }
 
 Vec2 velocity(const Simulation& sim) {
-  return centroid(sim.motion.state.vx, sim.motion.state.vy, sim.scene->blocks.size() - 1);
+  return centroid(sim.motion.state.velocity, sim.scene->blocks.size() - 1);
 }
 
 struct Slide {

@@ -40,10 +40,9 @@ std::vector<Peak> run_pulse(double spring, double c, const std::string& label) {
     const double from = static_cast<double>(i) + 0.5 - middle;
     for (std::size_t k = 0; k < 3; ++k) {
       // Each block has the value and the slope of the pulse.
-      const double y =
-          sim.motion.state.y[k][i] - centroid(sim.motion.state.x, sim.motion.state.y, i).y;
-      sim.motion.state.vy[k][i] = 0.02 * std::exp(-0.5 * from * from / (width * width)) *
-                                  (1.0 - from * y / (width * width));
+      const double y = sim.motion.state.position.y[k][i] - centroid(sim.motion.state.position, i).y;
+      sim.motion.state.velocity.y[k][i] = 0.02 * std::exp(-0.5 * from * from / (width * width)) *
+                                          (1.0 - from * y / (width * width));
     }
   }
   std::vector<Peak> peaks(blocks);
@@ -54,7 +53,7 @@ std::vector<Peak> run_pulse(double spring, double c, const std::string& label) {
   for (int n = 0; sim.motion.state.time < end; ++n) {
     EXPECT_FALSE(step(sim).has_value());
     for (std::size_t i = 0; i < blocks; ++i) {
-      const double v = centroid(sim.motion.state.vx, sim.motion.state.vy, i).y;
+      const double v = centroid(sim.motion.state.velocity, i).y;
       // Without the reflection from the other end.
       const bool first_pass = sim.motion.state.time < (static_cast<double>(i) - middle + 40.0) / c;
       if (n > 1 && first_pass && last[i] > before[i] && last[i] >= v && last[i] > peaks[i].speed) {

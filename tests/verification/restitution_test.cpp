@@ -44,7 +44,7 @@ std::vector<double> rocking(double h, const std::string& joint, std::size_t impa
     while (sim.motion.state.time < 0.002 * n) {
       if (step(sim)) return {};
     }
-    const Vec2 at = centroid(sim.motion.state.x, sim.motion.state.y, 1) + sim.scene->blocks.origin;
+    const Vec2 at = centroid(sim.motion.state.position, 1) + sim.scene->blocks.origin;
     const double now = at.x - 0.5;
     if (now * side < 0.0) {
       // The median: small impacts just after the last one do not count.
@@ -54,8 +54,9 @@ std::vector<double> rocking(double h, const std::string& joint, std::size_t impa
       row.clear();
     }
     side = now;
-    row.push_back(kinetic_energy(sim.motion.masses, sim.motion.state.vx, sim.motion.state.vy, 1) +
-                  weight * (at.y - 0.5 * h));
+    row.push_back(
+        kinetic_energy(sim.motion.masses, sim.scene->blocks, sim.motion.state.velocity, 1) +
+        weight * (at.y - 0.5 * h));
   }
   if (error != nullptr) *error = account_energy(sim).error;
   return energies;
@@ -84,7 +85,7 @@ double left_of_drop(double w, double h, const std::string& joint, const std::str
             number(-speed) + "]\n[solver]\nduration = 0.2\n[output]\nhistory_every = 0.1\n");
   run(sim, [](Simulation&) {});
   EXPECT_LT(std::abs(account_energy(sim).error), 1e-5);
-  return centroid(sim.motion.state.vx, sim.motion.state.vy, 1).y / speed;
+  return centroid(sim.motion.state.velocity, 1).y / speed;
 }
 
 TEST(Restitution, FlatImpactsLeaveThePartAskedFor) {
@@ -154,9 +155,7 @@ double left_of_impact(const std::vector<Vec2>& upper, const std::vector<Vec2>& l
   run(sim, [](Simulation&) {});
   EXPECT_LT(std::abs(account_energy(sim).error), 1e-5);
   const auto speed_of = [&](std::size_t i) {
-    return sim.scene->blocks.fixed[i] != 0
-               ? 0.0
-               : centroid(sim.motion.state.vx, sim.motion.state.vy, i).y;
+    return sim.scene->blocks.fixed[i] != 0 ? 0.0 : centroid(sim.motion.state.velocity, i).y;
   };
   return std::abs(speed_of(0) - speed_of(1)) / speed;
 }

@@ -55,7 +55,7 @@ inline void run(Simulation& sim, const Look& look, const Look& each = {}) {
 }
 
 inline Vec2 displacement(const Simulation& sim, std::size_t i) {
-  return centroid(sim.motion.state.x, sim.motion.state.y, i) -
+  return centroid(sim.motion.state.position, i) -
          Vec2{sim.scene->blocks.centroid_x[i], sim.scene->blocks.centroid_y[i]};
 }
 

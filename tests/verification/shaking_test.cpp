@@ -125,7 +125,7 @@ TEST(Shaking, RecordDrivesAFreeBlock) {
     double error = 0.0;
     run(sim, [&](Simulation& s) { keep_largest(error, account_energy(s).error); });
     // A triangle of 0.2 s and 3 m/s2, doubled: the block lags behind by its integral.
-    const Vec2 v = centroid(sim.motion.state.vx, sim.motion.state.vy, 0);
+    const Vec2 v = centroid(sim.motion.state.velocity, 0);
     EXPECT_NEAR(v.x, -0.6, 1e-6) << method;
     EXPECT_NEAR(v.y, 0.3, 1e-6) << method;
     EXPECT_LT(error, 1e-6) << method;

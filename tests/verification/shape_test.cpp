@@ -38,8 +38,7 @@ TEST(ReentrantCorner, CarriesOnBothSides) {
   EXPECT_NEAR(reaction.y, 2600.0 * 8.0, 5.0);
   EXPECT_EQ(carrying, 2);  // the floor and the wall
   EXPECT_LT(norm(displacement(sim, 1)), 1e-6);
-  const Rotation r =
-      rotation(deformation(sim.scene->blocks, sim.motion.state.x, sim.motion.state.y, 1));
+  const Rotation r = rotation(deformation(sim.scene->blocks, sim.motion.state.position, 1));
   EXPECT_LT(std::abs(r.s), 1e-6);
 }
 

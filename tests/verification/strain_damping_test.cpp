@@ -25,8 +25,10 @@ const double shear_frequency = std::sqrt(24.0 * 8e7 / 2500.0);
 /// Starts the shear mode of block 0, its lowest, by velocities.
 void shear(Simulation& sim, double rate) {
   for (std::size_t k = 0; k < 3; ++k) {
-    sim.motion.state.vx[k][0] = rate * (sim.motion.state.y[k][0] - sim.scene->blocks.centroid_y[0]);
-    sim.motion.state.vy[k][0] = rate * (sim.motion.state.x[k][0] - sim.scene->blocks.centroid_x[0]);
+    sim.motion.state.velocity.x[k][0] =
+        rate * (sim.motion.state.position.y[k][0] - sim.scene->blocks.centroid_y[0]);
+    sim.motion.state.velocity.y[k][0] =
+        rate * (sim.motion.state.position.x[k][0] - sim.scene->blocks.centroid_x[0]);
   }
 }
 
@@ -86,8 +88,8 @@ TEST(StrainDamping, LeavesRigidMotionAlone) {
   const auto momentum = [&] {
     double turning = 0.0;
     for (std::size_t k = 0; k < 3; ++k) {
-      const Vec2 x{sim.motion.state.x[k][0], sim.motion.state.y[k][0]},
-          v{sim.motion.state.vx[k][0], sim.motion.state.vy[k][0]};
+      const Vec2 x{sim.motion.state.position.x[k][0], sim.motion.state.position.y[k][0]},
+          v{sim.motion.state.velocity.x[k][0], sim.motion.state.velocity.y[k][0]};
       turning += sim.motion.masses.node[k][0] * cross(x - 0.5 * sim.motion.state.step * v, v);
     }
     return turning;
@@ -118,8 +120,8 @@ TEST(StrainDamping, KeepsTheMomentumOfACollision) {
     for (std::size_t i = 0; i < 2; ++i) {
       for (std::size_t k = 0; k < 3; ++k) {
         const double m = sim.motion.masses.node[k][i];
-        const Vec2 x{sim.motion.state.x[k][i], sim.motion.state.y[k][i]},
-            v{sim.motion.state.vx[k][i], sim.motion.state.vy[k][i]};
+        const Vec2 x{sim.motion.state.position.x[k][i], sim.motion.state.position.y[k][i]},
+            v{sim.motion.state.velocity.x[k][i], sim.motion.state.velocity.y[k][i]};
         p[0] += m * v.x;
         p[1] += m * v.y;
         p[2] += m * cross(x - 0.5 * sim.motion.state.step * v, v);

@@ -50,8 +50,7 @@ TEST(ThinPlate, IsNotPassed) {
       EXPECT_GT(lowest, -0.5 * thin) << speed << ' ' << tilt;
       EXPECT_LT(error, 1e-3) << speed << ' ' << tilt;
       // Bounced: the centroid goes up in the end.
-      EXPECT_GT(centroid(sim.motion.state.vx, sim.motion.state.vy, 1).y, 0.0)
-          << speed << ' ' << tilt;
+      EXPECT_GT(centroid(sim.motion.state.velocity, 1).y, 0.0) << speed << ' ' << tilt;
     }
   }
 }
@@ -76,8 +75,7 @@ TEST(ThinPlate, IsNotPassedWithSoftContactsEither) {
         bool failed = false;
         while (!failed && sim.motion.state.time < duration)
           failed = step(sim).has_value() || !sim.accounts.set_aside.empty();
-        const double height =
-            centroid(sim.motion.state.x, sim.motion.state.y, 1).y + sim.scene->blocks.origin.y;
+        const double height = centroid(sim.motion.state.position, 1).y + sim.scene->blocks.origin.y;
         EXPECT_GT(height, -0.005) << stiffness << ' ' << speed << ' ' << tilt;
         (failed ? stopped : bounced) += 1;
       }
@@ -103,8 +101,8 @@ TEST(ThinPlate, IsNotPassedBySlivers) {
       run(
           sim, [](Simulation&) {},
           [&](Simulation& s) {
-            lowest = std::min(lowest, centroid(s.motion.state.x, s.motion.state.y, 1).y +
-                                          s.scene->blocks.origin.y);
+            lowest =
+                std::min(lowest, centroid(s.motion.state.position, 1).y + s.scene->blocks.origin.y);
           });
       EXPECT_GT(lowest, 0.0) << speed << ' ' << turn;
     }
@@ -130,9 +128,8 @@ TEST(FlatRow, FortySeamsWithoutAKick) {
         sim,
         [&](Simulation& s) {
           keep_largest(error, account_energy(s).error);
-          worst = std::max(
-              worst,
-              std::abs(centroid(s.motion.state.vx, s.motion.state.vy, slider).x / 4.0 - 1.0));
+          worst =
+              std::max(worst, std::abs(centroid(s.motion.state.velocity, slider).x / 4.0 - 1.0));
           highest = std::max(highest, std::abs(displacement(s, slider).y));
         },
         [&](Simulation& s) { watch.look(s); });

@@ -62,7 +62,7 @@ inline Equilibrium watch_rest(Simulation& sim, std::uint64_t steps, bool in_equi
   const std::uint64_t first = sim.motion.state.steps;
   std::vector<Vec2> first_at;
   for (std::size_t i = 0; i < sim.scene->blocks.size(); ++i)
-    first_at.push_back(centroid(sim.motion.state.x, sim.motion.state.y, i));
+    first_at.push_back(centroid(sim.motion.state.position, i));
   std::vector<double> closed;
   double early = 0.0, late = 0.0;
   std::uint64_t early_rows = 0, late_rows = 0;
@@ -100,8 +100,7 @@ inline Equilibrium watch_rest(Simulation& sim, std::uint64_t steps, bool in_equi
   }
   found.trend = late / static_cast<double>(late_rows) - early / static_cast<double>(early_rows);
   for (std::size_t i = 0; i < sim.scene->blocks.size(); ++i)
-    found.moved = std::max(found.moved,
-                           norm(centroid(sim.motion.state.x, sim.motion.state.y, i) - first_at[i]));
+    found.moved = std::max(found.moved, norm(centroid(sim.motion.state.position, i) - first_at[i]));
   expect_rest(found, in_equilibrium, label);
   record_model(18, label, sim);
   return found;

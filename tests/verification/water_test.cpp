@@ -91,7 +91,7 @@ TEST(Load, WorkIsTheEnergyOfTheMotion) {
     EXPECT_GT(l.external, 0.0);
     EXPECT_NEAR((l.kinetic + l.strain + l.damping) / l.external, 1.0, 2.0 * close) << method;
     // Momentum is the load's impulse: 1e5 over half of 0.2 s, and 2e4 over all of it.
-    const Vec2 v = centroid(sim.motion.state.vx, sim.motion.state.vy, 0);
+    const Vec2 v = centroid(sim.motion.state.velocity, 0);
     EXPECT_NEAR(v.x * 2500.0 / 1e4, 1.0, 2e-3) << method;
     EXPECT_NEAR(v.y * 2500.0 / 4e3, 1.0, 2e-3) << method;
   }

@@ -60,9 +60,8 @@ void start_hump(Simulation& sim, bool shear) {
     const double from = static_cast<double>(i) + 0.5 - hump_at;
     for (std::size_t k = 0; k < 3; ++k) {
       // Each block has the value and the slope of the pulse.
-      const double y =
-          sim.motion.state.y[k][i] - centroid(sim.motion.state.x, sim.motion.state.y, i).y;
-      (shear ? sim.motion.state.vx : sim.motion.state.vy)[k][i] =
+      const double y = sim.motion.state.position.y[k][i] - centroid(sim.motion.state.position, i).y;
+      (shear ? sim.motion.state.velocity.x : sim.motion.state.velocity.y)[k][i] =
           0.02 * std::exp(-0.5 * from * from / (width * width)) *
           (1.0 - from * y / (width * width));
     }
@@ -89,7 +88,7 @@ double reflected(bool shear, double spring, const std::string& wave_speeds) {
       },
       [&](Simulation& s) {
         if (s.motion.state.time < 42.0 / c) return;
-        Vec2 v = centroid(s.motion.state.vx, s.motion.state.vy, 30);
+        Vec2 v = centroid(s.motion.state.velocity, 30);
         keep_largest(back, of(v, shear));
       });
   EXPECT_LT(error, 1e-5);
@@ -135,11 +134,11 @@ TEST(Upgoing, ArrivesDoubledAtAFreeSurface) {
     run(
         sim, [&](Simulation& s) { keep_largest(error, account_energy(s).error); },
         [&](Simulation& s) {
-          Vec2 v = vertex_at(s.scene->blocks, s.motion.state.vx, s.motion.state.vy,
+          Vec2 v = corner_at(s.scene->blocks, s.motion.state.velocity,
                              s.scene->blocks.vertex_begin[blocks - 1] + 2);
           keep_largest(top, of(v, shear));
           if (s.motion.state.time > 0.5 * end) return;
-          Vec2 u = centroid(s.motion.state.vx, s.motion.state.vy, 10);
+          Vec2 u = centroid(s.motion.state.velocity, 10);
           keep_largest(middle, of(u, shear));
         });
     // v = A/w (1 - cos w t), at most 2 A/w; twice that at the free end.

@@ -346,4 +346,20 @@ ROWS = (
         "Kirsch (1898). The joints of squares are as stiff in shear as across, so the rock with its joints is isotropic:"
         " 2 G = 1/((1 + nu)/E + 1/(k s)). For running bond and polygons: the same joints between blocks that are divided into fine"
         " triangles, in the same box."),
+    Row(72, "Meshed blocks, elastic",
+        "A cantilever of 10 m x 1 m as one block under a force at its end; a block of 1 m x 4 m that falls back until it is upright,"
+        " meshed coarsely and finely; a circular opening in one block, 30 radii from the rollers, zones of 0.06 radii at the wall.",
+        "A beam with shear; a pendulum of exact inertia; Kirsch (1898): the mean of the closure and its part in cos 2t.",
+        "The error of the cantilever is proportional to the square of the zones' size: two zones across it are few."),
+    Row(73, "An opening in rock after Mohr and Coulomb",
+        "A circular opening of 1 m in one block, rollers at 20 m, zones of 0.06 m at the wall that grow by 0.15 per metre: phi 30 deg,"
+        " c 3.45 MPa under 30 MPa. Hoop stresses as means over eight rings between the wall and twice the plastic zone.",
+        "Salencon (1969).",
+        "Zones half as large halve the error."),
+    Row(74, "An opening in rock after Hoek and Brown",
+        "The same opening in rock of sigma_ci 75 MPa, m 3.43, s 0.0205, a 0.5 under 30 MPa.",
+        "Equilibrium of the ring and its flow, integrated (Carranza-Torres 2004)."),
+    Row(75, "A strip footing",
+        "Half of a rough rigid strip of 2 m on rock without friction, c 100 kPa, pushed in by 20 mm; zones of 0.2 m.",
+        "(2 + pi) c (Prandtl 1920), on the width and half a zone beside it."),
 )

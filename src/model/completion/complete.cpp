@@ -348,6 +348,7 @@ void complete(const Value& root, Reading& reading) {
   check_solver(root, reading);
   complete_fos(root, reading);
   complete_points(root, reading);
+  complete_zones(root, reading);
   complete_interval(root, "every", model.output.every, 20.0,
                     std::numeric_limits<double>::infinity(), 1e5, reading);
   complete_interval(root, "history_every", model.output.history_every, 200.0, finest_record(model),

@@ -39,6 +39,8 @@ void complete_boundaries(const Value& root, Reading& reading);
 /// As complete(), for [initial_stress], boundaries that take their traction from it, and
 /// [[convergence]].
 void complete_initial_stress(const Value& root, Reading& reading);
+/// Whether rock may yield as it is to, and the model may have zones.
+void complete_zones(const Value& root, Reading& reading);
 
 /// As complete(), for [[shaking]]: records read from their files, the boundary that is named.
 void complete_shakings(const Value& root, Reading& reading);

@@ -10,14 +10,14 @@ namespace edda {
 namespace {
 
 struct Extent {
-  Vec2 low, high;
+  Vec2 lowest, highest;
 };
 
 Extent extent_of(const Ring& ring) {
   Extent e{ring.front(), ring.front()};
   for (const Vec2 p : ring) {
-    e.low = {std::min(e.low.x, p.x), std::min(e.low.y, p.y)};
-    e.high = {std::max(e.high.x, p.x), std::max(e.high.y, p.y)};
+    e.lowest = {std::min(e.lowest.x, p.x), std::min(e.lowest.y, p.y)};
+    e.highest = {std::max(e.highest.x, p.x), std::max(e.highest.y, p.y)};
   }
   return e;
 }
@@ -25,11 +25,11 @@ Extent extent_of(const Ring& ring) {
 }  // namespace
 
 std::vector<Vec2> places_of(const StudyMap& map) {
-  const auto [low, high] = extent_of(map.region);
+  const auto [lowest, highest] = extent_of(map.region);
   std::vector<Vec2> places;
-  for (double j = 0.5; low.y + j * map.spacing < high.y; j += 1.0) {
-    for (double i = 0.5; low.x + i * map.spacing < high.x; i += 1.0) {
-      const Vec2 place = low + map.spacing * Vec2{i, j};
+  for (double j = 0.5; lowest.y + j * map.spacing < highest.y; j += 1.0) {
+    for (double i = 0.5; lowest.x + i * map.spacing < highest.x; i += 1.0) {
+      const Vec2 place = lowest + map.spacing * Vec2{i, j};
       if (side_of({&map.region, 1}, place, 0.0) >= 0) places.push_back(place);
     }
   }
@@ -44,8 +44,8 @@ void complete_map(const Completing& c) {
                          const std::string& remedy) {
     c.fault(table, key, "map", problem, remedy);
   };
-  const auto [low, high] = extent_of(map.region);
-  const Vec2 size = (1.0 / map.spacing) * (high - low);
+  const auto [lowest, highest] = extent_of(map.region);
+  const Vec2 size = (1.0 / map.spacing) * (highest - lowest);
   constexpr double most_looked_at = 100.0 * most_places;
   const double all = size.x * size.y;
   const double count = all > most_looked_at ? all : static_cast<double>(places_of(map).size());

@@ -19,7 +19,7 @@ constexpr std::array root_keys{
     Key{"title", at<&Model::title>, text, initial, "Title of pictures and tables."},
     Key{"gravity", at<&Model::gravity>, shape(Kind::point, D::acceleration), initial, "Acceleration of gravity, x and y."},
     Key{"plane", at<&Model::plane>, choice, initial, "Plane strain, or plane stress (a thin plate)."},
-    Key{"deformation", at<&Model::deformation>, choice, initial, "How blocks deform. Corners: the corners of a block deviate from its mean strain, so that the block bends (with contact.model faces; a triangle has one strain in any case). Uniform: each has one strain, and is too stiff in bending. Auto: corners. materials.NAME.deformation goes first."},
+    Key{"deformation", at<&Model::deformation>, choice, initial, "How blocks deform. Corners: the corners of a block deviate from its mean strain, so that the block bends (with contact.model faces; a triangle has one strain in any case). Uniform: each has one strain, and is too stiff in bending. Zones: each is a mesh of triangles. Auto: zones with [zones], else corners. materials.NAME.deformation goes first."},
     Key{"thickness", at<&Model::thickness>, number(D::length, above(0)), initial, "Thickness out of plane for which forces and masses are given."},
 };
 
@@ -28,9 +28,58 @@ constexpr std::array material_keys{
     Key{"unit_weight", nullptr, number(D::unit_weight, above(0)), otherwise("density * |gravity|"), "Weight per volume, in place of density; divided by |gravity|, or by 9.81 m/s2 where that is zero."},
     Key{"young", at<&Material::young>, number(D::stress, above(0)), required, "Young's modulus."},
     Key{"poisson", at<&Material::poisson>, number(D::plain, between(-1, 0.5)), required, "Poisson's ratio."},
-    Key{"damping", at<&Material::damping>, number(D::plain, from(0)), initial, "Viscous damping of the strain of a block, as a fraction of critical damping of its lowest natural frequency; it hardly affects motion far below that frequency. 0: none."},
-    Key{"deformation", at<&Material::deformation>, choice, initial, "How blocks of this material deform: corners or uniform; auto: as the model says."},
+    Key{"damping", at<&Material::damping>, number(D::plain, from(0)), initial, "Viscous damping of the strain of a block, as a fraction of critical damping of its lowest natural frequency; it hardly affects motion far below that frequency. 0: none. Meshed blocks have none."},
+    Key{"deformation", at<&Material::deformation>, choice, initial, "How blocks of this material deform: corners, uniform or zones; auto: zones with a yield or foliation table, else as the model says."},
+    Key{"zone_size", at<&Material::zone_size>, number(D::length, above(0)), otherwise("zones.size"), "Length of the edges of zones in this material, in place of zones.size."},
+    Key{"yield", at<&Material::yield>, table, otherwise("none: the rock stays elastic"), "Where the rock of zones yields: after Mohr and Coulomb (friction_angle, cohesion) or after Hoek and Brown (ucs with gsi and mi, or with m and s), with a tension cut-off."},
+    Key{"foliation", at<&Material::foliation>, table, otherwise("none"), "Planes of weakness of one direction throughout the rock of zones (foliation, bedding, ubiquitous joints): elasticity across them, slip and opening on them."},
     Key{"strength", at<&Material::strength>, table, otherwise("none: overstress is not computed"), "Strength of the intact rock; blocks stay elastic, over-stressed ones are reported."},
+};
+
+constexpr std::array yield_keys{
+    Key{"friction_angle", at<&Yield::peak, &RockMass::friction_angle>, number(D::angle, friction), otherwise("required of Mohr and Coulomb"), "Friction angle of the rock mass (Mohr and Coulomb)."},
+    Key{"cohesion", at<&Yield::peak, &RockMass::cohesion>, number(D::stress, from(0)), otherwise("required of Mohr and Coulomb"), "Its cohesion."},
+    Key{"tensile_strength", at<&Yield::peak, &RockMass::tensile_strength>, number(D::stress, from(0)), otherwise("0; of Hoek and Brown s ucs / m"), "Its tensile strength; no more than cohesion / tan(friction_angle), or s ucs / m."},
+    Key{"dilation_angle", at<&Yield::peak, &RockMass::dilation_angle>, number(D::angle, from_below(0, 90)), otherwise("0"), "Its dilation angle; no more than friction_angle."},
+    Key{"ucs", at<&Yield::peak, &RockMass::ucs>, number(D::stress, above(0)), otherwise("required of Hoek and Brown"), "Uniaxial compressive strength of the intact rock (Hoek and Brown)."},
+    Key{"gsi", at<&Yield::peak, &RockMass::gsi>, number(D::plain, from_to(0, 100)), otherwise("none: m and s are given"), "Geological strength index of the rock mass."},
+    Key{"mi", at<&Yield::peak, &RockMass::mi>, number(D::plain, above(0)), otherwise("required with gsi"), "Hoek and Brown's m of the intact rock."},
+    Key{"disturbance", at<&Yield::peak, &RockMass::disturbance>, number(D::plain, from_to(0, 1)), otherwise("0"), "Disturbance factor D."},
+    Key{"m", at<&Yield::peak, &RockMass::m>, number(D::plain, above(0)), otherwise("from gsi, mi and disturbance"), "Hoek and Brown's m of the rock mass, in place of gsi and mi."},
+    Key{"s", at<&Yield::peak, &RockMass::s>, number(D::plain, from_to(0, 1)), otherwise("from gsi and disturbance; required with m"), "Hoek and Brown's s of the rock mass."},
+    Key{"a", at<&Yield::peak, &RockMass::a>, number(D::plain, between(0, 1)), otherwise("from gsi; 0.5 with m"), "Hoek and Brown's a of the rock mass."},
+    Key{"residual", at<&Yield::residual>, table, otherwise("none: the strength does not fall"), "Strength to which the rock softens as it shears; what it leaves out is as at the peak."},
+    Key{"slip_distance", at<&Yield::slip_distance>, number(D::length, from(0)), otherwise("required with residual"), "Slip of a band of rock over which the strength falls to the residual one, whatever the size of the zones; 0: at once."},
+};
+
+constexpr std::array rock_mass_keys{
+    Key{"friction_angle", at<&RockMass::friction_angle>, number(D::angle, friction), otherwise("as at the peak"), "Friction angle of the rock mass (Mohr and Coulomb)."},
+    Key{"cohesion", at<&RockMass::cohesion>, number(D::stress, from(0)), otherwise("as at the peak"), "Its cohesion."},
+    Key{"tensile_strength", at<&RockMass::tensile_strength>, number(D::stress, from(0)), otherwise("as at the peak"), "Its tensile strength; no more than cohesion / tan(friction_angle), or s ucs / m."},
+    Key{"dilation_angle", at<&RockMass::dilation_angle>, number(D::angle, from_below(0, 90)), otherwise("as at the peak"), "Its dilation angle; no more than friction_angle."},
+    Key{"ucs", at<&RockMass::ucs>, number(D::stress, above(0)), otherwise("as at the peak"), "Uniaxial compressive strength of the intact rock (Hoek and Brown)."},
+    Key{"gsi", at<&RockMass::gsi>, number(D::plain, from_to(0, 100)), otherwise("as at the peak"), "Geological strength index of the rock mass."},
+    Key{"mi", at<&RockMass::mi>, number(D::plain, above(0)), otherwise("as at the peak"), "Hoek and Brown's m of the intact rock."},
+    Key{"disturbance", at<&RockMass::disturbance>, number(D::plain, from_to(0, 1)), otherwise("as at the peak"), "Disturbance factor D."},
+    Key{"m", at<&RockMass::m>, number(D::plain, above(0)), otherwise("as at the peak"), "Hoek and Brown's m of the rock mass, in place of gsi and mi."},
+    Key{"s", at<&RockMass::s>, number(D::plain, from_to(0, 1)), otherwise("as at the peak"), "Hoek and Brown's s of the rock mass."},
+    Key{"a", at<&RockMass::a>, number(D::plain, between(0, 1)), otherwise("as at the peak"), "Hoek and Brown's a of the rock mass."},
+};
+
+constexpr std::array foliation_keys{
+    Key{"angle", at<&FoliationInputs::angle>, number(D::angle, from_to(-180, 180)), required, "Angle of the trace of the planes from +x, counter-clockwise."},
+    Key{"young", at<&FoliationInputs::young>, number(D::stress, above(0)), otherwise("the material's"), "Young's modulus across the planes; that of the material is along them."},
+    Key{"poisson", at<&FoliationInputs::poisson>, number(D::plain, between(-1, 1)), otherwise("the material's"), "Strain along the planes over strain across them, under a stress across them."},
+    Key{"shear_modulus", at<&FoliationInputs::shear_modulus>, number(D::stress, above(0)), otherwise("by Saint-Venant: 1 / (1 / E + (1 + 2 nu') / E')"), "Shear modulus of shear along the planes."},
+    Key{"friction_angle", at<&FoliationInputs::friction_angle>, number(D::angle, friction), otherwise("none: the planes do not slip"), "Friction angle of the planes."},
+    Key{"cohesion", at<&FoliationInputs::cohesion>, number(D::stress, from(0)), otherwise("0"), "Cohesion of the planes."},
+    Key{"tensile_strength", at<&FoliationInputs::tensile_strength>, number(D::stress, from(0)), otherwise("0"), "Tensile strength across the planes; no more than cohesion / tan(friction_angle)."},
+    Key{"dilation_angle", at<&FoliationInputs::dilation_angle>, number(D::angle, from_below(0, 90)), otherwise("0"), "Dilation angle of the planes; no more than friction_angle."},
+};
+
+constexpr std::array zones_keys{
+    Key{"size", at<&ZoneInputs::size>, number_or("auto", D::length, above(0)), otherwise("\"auto\": an eighth of the half-width of the narrowest opening, or else a thirtieth of the width of the model"), "Length of the edges of zones, at openings where there are any. A block has at least two zones across its width."},
+    Key{"growth", at<&ZoneInputs::growth>, number(D::plain, from_to(0, 1)), otherwise("0 where a size is given, else 0.15"), "By what that length grows per metre of distance from the nearest opening."},
 };
 
 constexpr std::array rock_strength_keys{
@@ -298,6 +347,7 @@ constexpr std::array all_sections{
     section<&Model::walls>("brick_wall", Shape::list, wall_keys, "Bricks in running bond, half bricks closing the odd rows."),
     section<&Model::arches>("arch", Shape::list, arch_keys, "Voussoirs."),
     section<&Model::quality>("quality", Shape::table, quality_keys, "Which cut blocks are too small or too thin, and what becomes of them."),
+    section<&Model::zones>("zones", Shape::table, zones_keys, "The mesh of blocks that are meshed."),
     section<&Model::pairs>("contact_pair", Shape::list, pair_keys, "The law where two joints or two materials meet."),
     section<&Model::initial_stress>("initial_stress", Shape::table, initial_stress_keys, "Stress in the rock at the start, in blocks and contacts."),
     section<&Model::boundaries>("boundary", Shape::list, boundary_keys, "Support, motion, load or wave absorption along a line."),
@@ -320,6 +370,15 @@ constexpr std::array all_sections{
 
 std::span<const Key> keys_of(const Strength&) {
   return strength_keys;
+}
+std::span<const Key> keys_of(const Yield&) {
+  return yield_keys;
+}
+std::span<const Key> keys_of(const RockMass&) {
+  return rock_mass_keys;
+}
+std::span<const Key> keys_of(const FoliationInputs&) {
+  return foliation_keys;
 }
 std::span<const Key> keys_of(const RockStrength&) {
   return rock_strength_keys;

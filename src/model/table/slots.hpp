@@ -13,7 +13,8 @@ namespace edda {
 // Names of the values of each enumeration, in the order of the enumeration.
 inline constexpr std::array<std::string_view, 2> plane_names{"strain", "stress"};
 inline constexpr std::array<std::string_view, 2> method_names{"edda", "dda"};
-inline constexpr std::array<std::string_view, 3> deformation_names{"auto", "corners", "uniform"};
+inline constexpr std::array<std::string_view, 4> deformation_names{"auto", "corners", "uniform",
+                                                                   "zones"};
 inline constexpr std::array<std::string_view, 3> mass_names{"matched", "covering", "consistent"};
 inline constexpr std::array<std::string_view, 2> switching_names{"exact", "plain"};
 inline constexpr std::array<std::string_view, 2> contact_model_names{"faces", "points"};
@@ -126,6 +127,9 @@ constexpr std::span<const std::string_view> names_of(SurfaceKind) {
 
 // Keys of the tables inside a key.
 std::span<const Key> keys_of(const RockStrength&);
+std::span<const Key> keys_of(const Yield&);
+std::span<const Key> keys_of(const RockMass&);
+std::span<const Key> keys_of(const FoliationInputs&);
 std::span<const Key> keys_of(const Strength&);
 std::span<const Key> keys_of(const Damping&);
 std::span<const Key> keys_of(const Rayleigh&);

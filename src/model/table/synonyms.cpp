@@ -73,7 +73,6 @@ constexpr std::array other_words{
     Synonym{"accelerogram", "shaking.acceleration", ""},
     // Geometry.
     Synonym{"zone", "", "blocks are not divided into zones: a block has one stress; smaller blocks ([voronoi], glued joints) show how stress varies"},
-    Synonym{"zones", "", "blocks are not divided into zones: a block has one stress; smaller blocks ([voronoi], glued joints) show how stress varies"},
     Synonym{"gridpoint", "monitor", "there are no gridpoints: a point of a block is a monitor"},
     Synonym{"gp", "monitor", "there are no gridpoints: a point of a block is a monitor"},
     Synonym{"grid", "domain", ""},

@@ -8,23 +8,23 @@
 namespace edda {
 
 /// Sampled seconds by part of the step.
-struct StageSeconds {
+struct StepSeconds {
   double search = 0.0;     ///< contact list, bound of the step
   double forces = 0.0;     ///< loads, evaluation of faces, contact activation
   double integrate = 0.0;  ///< nodal forces, motion, energy accounts
   double sum() const { return search + forces + integrate; }
 };
 
-class StageClock {
+class StepClock {
  public:
-  explicit StageClock(std::uint64_t step) : on_(is_sampled(step)) {
+  explicit StepClock(std::uint64_t step) : on_(is_sampled(step)) {
     if (on_) last_ = Clock::now();
   }
-  /// Adds the time since the last lap to the part `stage`.
-  void lap(double& stage) {
+  /// Adds the time since the last lap to this part.
+  void lap(double& part) {
     if (!on_) return;
     const Clock::time_point now = Clock::now();
-    stage += std::chrono::duration<double>(now - last_).count();
+    part += std::chrono::duration<double>(now - last_).count();
     last_ = now;
   }
 

@@ -1,5 +1,5 @@
 // A block that is pushed after its step moves as if the force had been there in the step.
-#include "step/push_block.hpp"
+#include "integrate/push_block.hpp"
 
 #include <gtest/gtest.h>
 
@@ -16,7 +16,7 @@ namespace {
 struct Moving : test::DrawnBlocks {
   State state;
   Pose pose;
-  Nodes old_vx, old_vy;
+  BodyVectors old_velocity;
   double pushed_by = 0.0;
   double damping_work = 0.0;  ///< J, of the strain damping
 
@@ -29,11 +29,10 @@ struct Moving : test::DrawnBlocks {
     state = initial_state(blocks, set);
     const double vx[3] = {0.1, -0.2, 0.05}, vy[3] = {0.03, 0.1, -0.15};
     for (std::size_t k = 0; k < 3; ++k) {
-      state.vx[k][0] = vx[k];
-      state.vy[k][0] = vy[k];
+      state.velocity.x[k][0] = vx[k];
+      state.velocity.y[k][0] = vy[k];
     }
-    old_vx = state.vx;
-    old_vy = state.vy;
+    old_velocity = state.velocity;
     pose = {blocks.vertex_x, blocks.vertex_y, blocks.vertex_x,
             blocks.vertex_y, blocks.vertex_x, blocks.vertex_y};
   }
@@ -46,48 +45,33 @@ const EdgeForce more{1, 2, {-1e4, 4e4}, {2e4, 1e4}};
 /// Makes a step with the force, and with all of it in the step or some of it by a push.
 Moving moved(double mass_damping, bool strain_damped, bool pushed, const EdgeForce& by = more) {
   Moving m;
-  Nodes fx = zero_nodes(1), fy = fx;
-  NodeVectors all = force;
-  ModeVectors on_modes, old_rate = m.state.bend_rate;
-  on_modes.assign(m.blocks.bending.modes(), 0.0);
-  on_modes.set(0, {2e4, 2e4});
+  BodyVectors forces = zero_vectors(m.blocks);
+  BlockForces all{m.blocks, 0};
+  all.sum.nodes = force;
+  all.sum.modes.set(0, {2e4, 2e4});
   if (!pushed) {
-    spread(all, m.blocks, more.edge, more.at_edge);
-    spread(all, m.blocks, more.end, more.at_end);
-    m.blocks.modes(0).spread(on_modes, more.edge, more.at_edge);
-    m.blocks.modes(0).spread(on_modes, more.end, more.at_end);
+    all.at_corner(more.edge, more.at_edge);
+    all.at_corner(more.end, more.at_end);
   }
-  for (std::size_t k = 0; k < nodes_per_block; ++k) {
-    const Vec2 f = all[k];
-    fx[k][0] = f.x;
-    fy[k][0] = f.y;
-  }
+  store(all.sum, m.blocks, forces, 0);
   StrainDamping strain;
   const double h = 0.5 * (h_old + h_new);
   prepare(strain, m.blocks, m.masses, h / (1.0 + 0.5 * mass_damping * h));
   StrainDamping* const damps = strain_damped ? &strain : nullptr;
-  const StepDamping damping{mass_damping, 0.0, nullptr, damps};
   ModeDamping modes;
   modes.force.assign(m.blocks.bending.modes(), 0.0);
   modes.couple.assign(1, 0.0);
-  ModeDamping* const of_modes = strain_damped ? &modes : nullptr;
-  const Leap leap{m.blocks, m.masses, fx,      fy,        m.old_vx, m.old_vy,
-                  h_old,    h_new,    damping, &on_modes, &old_rate};
-  advance_modes(m.state, leap, of_modes, fx, fy, 0, 1);
+  const StepDamping damping{mass_damping, 0.0, nullptr, damps, strain_damped ? &modes : nullptr};
+  const Leap leap{m.blocks, m.masses, forces, m.old_velocity, h_old, h_new, damping};
+  advance_modes(m.state, leap, forces, 0, 1);
   advance(m.state, leap);
-  if (pushed) {
-    StepTaken taken{m.blocks, m.masses, m.state, m.pose,       m.old_vx,
-                    m.old_vy, h_old,    h_new,   mass_damping, damps};
-    taken.old_rate = &old_rate;
-    taken.mode_damping = of_modes;
-    m.pushed_by = push_block(taken, 0, by);
-  }
+  if (pushed) m.pushed_by = push_block({leap, m.state, m.pose}, 0, by);
   DampingWork work{{0.0}};
-  account_damping(m.state, leap, work, of_modes);
+  account_damping(m.state, leap, work);
   m.damping_work = work.joules[0];
   m.pose.x1 = m.pose.x;
   m.pose.y1 = m.pose.y;
-  place_vertices(m.blocks, m.state.x, m.state.y, m.state.bend, 0, m.pose.x, m.pose.y);
+  place_vertices(m.blocks, m.state.position, 0, m.pose.x, m.pose.y);
   return m;
 }
 
@@ -112,14 +96,16 @@ TEST(PushBlock, MovesABlockAsTheForceWouldHave) {
       }
       for (std::size_t k = 0; k < nodes_per_block; ++k) {
         const double size = 1e-3;  // m/s: about what `more` changes
-        EXPECT_NEAR(a.state.vx[k][0], b.state.vx[k][0], 1e-3 * size) << mass_damping;
-        EXPECT_NEAR(a.state.vy[k][0], b.state.vy[k][0], 1e-3 * size) << mass_damping;
-        EXPECT_NEAR(a.state.x[k][0], b.state.x[k][0], 1e-3 * size * h_new);
-        EXPECT_NEAR(a.state.y[k][0], b.state.y[k][0], 1e-3 * size * h_new);
+        EXPECT_NEAR(a.state.velocity.x[k][0], b.state.velocity.x[k][0], 1e-3 * size)
+            << mass_damping;
+        EXPECT_NEAR(a.state.velocity.y[k][0], b.state.velocity.y[k][0], 1e-3 * size)
+            << mass_damping;
+        EXPECT_NEAR(a.state.position.x[k][0], b.state.position.x[k][0], 1e-3 * size * h_new);
+        EXPECT_NEAR(a.state.position.y[k][0], b.state.position.y[k][0], 1e-3 * size * h_new);
       }
-      EXPECT_GT(norm(b.state.bend_rate[0] - alone.state.bend_rate[0]), 1e-4);
-      EXPECT_LT(norm(a.state.bend_rate[0] - b.state.bend_rate[0]), 1e-6);
-      EXPECT_LT(norm(a.state.bend[0] - b.state.bend[0]), 1e-6 * h_new);
+      EXPECT_GT(norm(b.state.velocity.modes[0] - alone.state.velocity.modes[0]), 1e-4);
+      EXPECT_LT(norm(a.state.velocity.modes[0] - b.state.velocity.modes[0]), 1e-6);
+      EXPECT_LT(norm(a.state.position.modes[0] - b.state.position.modes[0]), 1e-6 * h_new);
     }
   }
 }

@@ -1,0 +1,124 @@
+#include "zones/rock.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace edda {
+namespace {
+
+constexpr double degree = std::numbers::pi / 180.0;
+
+YieldSurface surface_of(const RockMass& rock) {
+  const double dilation = degree * rock.dilation_angle.value_or(0.0);
+  if (!rock.ucs) {
+    return surface_of(MohrCoulomb{degree * *rock.friction_angle, dilation, *rock.cohesion,
+                                  rock.tensile_strength.value_or(0.0)});
+  }
+  HoekBrownConstants c{rock.m.value_or(0.0), rock.s.value_or(0.0), rock.a.value_or(0.5)};
+  if (rock.gsi) c = hoek_brown_constants(*rock.gsi, *rock.mi, rock.disturbance.value_or(0.0));
+  return HoekBrown{*rock.ucs, c.m,      c.s,
+                   c.a,       dilation, rock.tensile_strength.value_or(c.s * *rock.ucs / c.m)};
+}
+
+Foliation foliation_of(const Material& m) {
+  const FoliationInputs& f = *m.foliation;
+  Foliation made;
+  made.along = {std::cos(degree * f.angle), std::sin(degree * f.angle)};
+  if (f.is_elastic()) {
+    const double young = f.young.value_or(m.young), poisson = f.poisson.value_or(m.poisson);
+    made.elastic = transverse_elasticity(
+        m.young, m.poisson, young, poisson,
+        f.shear_modulus.value_or(usual_shear_modulus(m.young, young, poisson)));
+  }
+  if (f.friction_angle) {
+    made.strength = FoliationStrength{std::tan(degree * *f.friction_angle),
+                                      std::tan(degree * f.dilation_angle.value_or(0.0)),
+                                      f.cohesion.value_or(0.0), f.tensile_strength.value_or(0.0)};
+  }
+  return made;
+}
+
+double between(double a, double b, double part) {
+  return a + part * (b - a);
+}
+
+/// Surfaces of one kind.
+struct Between {
+  double part;
+  YieldSurface operator()(const MohrCoulombSurface& a, const MohrCoulombSurface& b) const {
+    const MohrCoulomb &p = a.rock, &q = b.rock;
+    return surface_of(
+        MohrCoulomb{between(p.friction, q.friction, part), between(p.dilation, q.dilation, part),
+                    between(p.cohesion, q.cohesion, part), between(p.tension, q.tension, part)});
+  }
+  YieldSurface operator()(const HoekBrown& p, const HoekBrown& q) const {
+    HoekBrown r = p;
+    r.strength = between(p.strength, q.strength, part);
+    r.m = between(p.m, q.m, part);
+    r.s = between(p.s, q.s, part);
+    r.a = between(p.a, q.a, part);
+    r.dilation = between(p.dilation, q.dilation, part);
+    r.tension = between(p.tension, q.tension, part);
+    return r;
+  }
+  template <class A, class B>
+  YieldSurface operator()(const A& a, const B&) const {
+    return a;
+  }
+};
+
+struct Divide {
+  double factor;
+  YieldSurface operator()(std::monostate) const { return {}; }
+  double angle(double of) const { return std::atan(std::tan(of) / factor); }
+  YieldSurface operator()(const MohrCoulombSurface& s) const {
+    return surface_of(MohrCoulomb{angle(s.rock.friction), angle(s.rock.dilation),
+                                  s.rock.cohesion / factor, s.rock.tension / factor});
+  }
+  YieldSurface operator()(const HoekBrown& s) const {
+    HoekBrown r = s;
+    r.factor *= factor;
+    r.dilation = angle(s.dilation);
+    r.tension /= factor;
+    return r;
+  }
+};
+
+}  // namespace
+
+ZoneMaterial zone_material(const Material& m) {
+  const double nu = m.poisson, mu = m.young / (2.0 * (1.0 + nu));
+  ZoneMaterial made{{2.0 * mu * nu / (1.0 - 2.0 * nu), mu}};
+  if (m.yield) {
+    made.peak = surface_of(m.yield->peak);
+    if (m.yield->residual) made.residual = surface_of(m.yield->after());
+    made.slip = m.yield->slip_distance.value_or(0.0);
+  }
+  if (m.foliation) made.foliation = foliation_of(m);
+  return made;
+}
+
+ZoneMaterial divided(const ZoneMaterial& rock, double factor) {
+  ZoneMaterial r = rock;
+  for (YieldSurface* surface : {&r.peak, &r.residual})
+    *surface = std::visit(Divide{factor}, *surface);
+  if (r.foliation && r.foliation->strength) {
+    FoliationStrength& s = *r.foliation->strength;
+    for (double* of : {&s.friction, &s.dilation, &s.cohesion, &s.tension}) *of /= factor;
+  }
+  return r;
+}
+
+ReturnedStress return_to(const ZoneMaterial& rock, double slip, const Principal& trial) {
+  const auto on = [&](const YieldSurface& surface) {
+    if (const auto* s = std::get_if<MohrCoulombSurface>(&surface))
+      return return_to(*s, rock.elastic, trial);
+    return return_to(std::get<HoekBrown>(surface), rock.elastic, trial);
+  };
+  if (!yields(rock.residual) || !(slip > 0.0)) return on(rock.peak);
+  if (slip >= rock.slip) return on(rock.residual);
+  return on(std::visit(Between{slip / rock.slip}, rock.peak, rock.residual));
+}
+
+}  // namespace edda

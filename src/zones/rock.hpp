@@ -1,0 +1,47 @@
+// Rock of zones: its elasticity, where it yields, how its strength falls, and its foliation.
+//
+// Strength falls from the peak to the residual one as a band of rock shears. What a zone remembers
+// is its plastic shear strain g, the accumulated difference e1 - e3; a band in it is as wide as the
+// zone (w), so that it has slipped by w g: the strength falls linearly with w g over a given slip,
+// and what a band dissipates does not hang on the size of the zones.
+#pragma once
+
+#include <optional>
+#include <variant>
+
+#include "model/model.hpp"
+#include "zones/foliation.hpp"
+#include "zones/hoek_brown.hpp"
+#include "zones/mohr_coulomb.hpp"
+
+namespace edda {
+
+/// The first: rock that stays elastic.
+using YieldSurface = std::variant<std::monostate, MohrCoulombSurface, HoekBrown>;
+inline bool yields(const YieldSurface& surface) {
+  return surface.index() > 0;
+}
+
+struct ZoneMaterial {
+  IsotropicElasticity elastic{};
+  YieldSurface peak{}, residual{};  ///< residual: empty where the strength does not fall
+  double slip = 0.0;  ///< m, from the peak to the residual strength; 0: at the first slip
+  std::optional<Foliation> foliation{};
+};
+/// Whether it yields anywhere.
+inline bool has_strength(const ZoneMaterial& rock) {
+  return yields(rock.peak) || (rock.foliation && rock.foliation->strength);
+}
+ZoneMaterial zone_material(const Material& material);
+inline ZoneMaterial rock_that_yields(const IsotropicElasticity& elastic,
+                                     const MohrCoulomb& strength) {
+  return {elastic, surface_of(strength)};
+}
+
+/// With the shear and tensile strength divided by a factor, dilation with the friction.
+ZoneMaterial divided(const ZoneMaterial& rock, double factor);
+
+/// Return of stresses in any order to the strength of the rock after a slip (m); it yields.
+ReturnedStress return_to(const ZoneMaterial& rock, double slip, const Principal& trial);
+
+}  // namespace edda

@@ -1,0 +1,328 @@
+#include "zones/zone_set.hpp"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+
+#include "base/parallel.hpp"
+#include "blocks/kinematics.hpp"
+#include "zones/pairs.hpp"
+
+namespace edda {
+namespace {
+
+constexpr std::size_t cost_of_a_pair = 200;  // ns
+
+/// The mesh of block i by itself.
+Mesh mesh_of(const Meshes& m, std::size_t i) {
+  Mesh mesh;
+  mesh.nodes = arms_of(m, i);
+  for (std::uint32_t z = m.zone_begin[i]; z < m.zone_begin[i + 1]; ++z) {
+    Triangle t;
+    for (std::size_t k = 0; k < corners_of_zone; ++k) t[k] = m.zone[z][k] - m.begin[i];
+    mesh.triangles.push_back(t);
+  }
+  return mesh;
+}
+
+/// Stresses xx, yy, xy per strains xx, yy and 2 xy.
+Eigen::Matrix3d plane_stiffness(const ZoneMaterial& rock) {
+  const auto [lambda, mu] = rock.elastic;
+  Eigen::Matrix3d c;
+  c << lambda + 2.0 * mu, lambda, 0.0, lambda, lambda + 2.0 * mu, 0.0, 0.0, 0.0, mu;
+  if (!rock.foliation || !rock.foliation->elastic) return c;
+  const TransverseElasticity& e = *rock.foliation->elastic;
+  const auto [x, y] = rock.foliation->along;
+  c << e.tt, e.tn, 0.0, e.tn, e.nn, 0.0, 0.0, 0.0, e.shear;
+  Eigen::Matrix3d in;  // strains in the axes of the foliation
+  in << x * x, y * y, x * y, y * y, x * x, -x * y, -2.0 * x * y, 2.0 * x * y, x * x - y * y;
+  return in.transpose() * c * in;
+}
+
+/// Square of the highest frequency of a pair by itself, with its lumped masses, 1/s2.
+double highest_square(const ZoneModel& model, const Meshes& m, std::size_t p,
+                      const ZoneMaterial& rock, double density) {
+  using Matrix = Eigen::Matrix<double, 8, 8>;
+  using Strains = Eigen::Matrix<double, 3, 8>;
+  std::vector<std::uint32_t> nodes;
+  const auto place = [&](std::uint32_t j) {
+    const auto found = std::find(nodes.begin(), nodes.end(), j);
+    const auto at = static_cast<Eigen::Index>(found - nodes.begin());
+    if (found == nodes.end()) nodes.push_back(j);
+    return 2 * at;
+  };
+  Eigen::Matrix<double, 8, 1> mass = Eigen::Matrix<double, 8, 1>::Zero();
+  std::array<Strains, 2> strains{Strains::Zero(), Strains::Zero()};
+  std::array<double, 2> volumes{};
+  Eigen::Matrix<double, 1, 8> mean = Eigen::Matrix<double, 1, 8>::Zero();
+  for (std::size_t q = 0; q < strains.size(); ++q) {
+    const std::uint32_t z = model.pair[p][q];
+    if (z == no_partner) continue;
+    const ZoneShape& shape = model.shape[z];
+    volumes[q] = shape.volume;
+    for (std::size_t n = 0; n < corners_of_zone; ++n) {
+      const Eigen::Index at = place(m.zone[z][n]);
+      const Vec2 g = shape.gradient[n];
+      strains[q].col(at) += Eigen::Vector3d(g.x, 0.0, g.y);
+      strains[q].col(at + 1) += Eigen::Vector3d(0.0, g.y, g.x);
+      for (Eigen::Index c : {at, at + 1}) mass[c] += density * shape.volume / 3.0;
+    }
+    mean += shape.volume * (strains[q].row(0) + strains[q].row(1));
+  }
+  mean /= volumes[0] + volumes[1];
+  const Eigen::Matrix3d c = plane_stiffness(rock);
+  Matrix k = Matrix::Zero();
+  for (std::size_t q = 0; q < strains.size(); ++q) {
+    Strains b = strains[q];
+    const Eigen::Matrix<double, 1, 8> more = 0.5 * (mean - strains[q].row(0) - strains[q].row(1));
+    b.row(0) += more;
+    b.row(1) += more;
+    k += volumes[q] * b.transpose() * c * b;
+  }
+  for (Eigen::Index i = 0; i < 8; ++i) mass[i] = mass[i] > 0.0 ? 1.0 / std::sqrt(mass[i]) : 0.0;
+  const Eigen::SelfAdjointEigenSolver<Matrix> solver(mass.asDiagonal() * k * mass.asDiagonal(),
+                                                     Eigen::EigenvaluesOnly);
+  return solver.eigenvalues()[7];
+}
+
+/// Fills ZoneModel::square.
+void find_squares(ZoneModel& zones, const Model& model, const BlockSet& b) {
+  std::vector<double> of_pair(zones.pair.size());
+  parallel_for(
+      of_pair.size(),
+      [&](std::size_t p) {
+        const auto material = static_cast<std::size_t>(b.material[zones.pair_block[p]]);
+        of_pair[p] = highest_square(zones, b.meshes, p, zones.material[material],
+                                    model.materials[material].density);
+      },
+      10000);
+  zones.square.assign(b.meshes.nodes(), 0.0);
+  for (std::size_t p = 0; p < of_pair.size(); ++p) {
+    for (const std::uint32_t z : zones.pair[p]) {
+      if (z == no_partner) continue;
+      for (const std::uint32_t j : b.meshes.zone[z])
+        zones.square[j] = std::max(zones.square[j], of_pair[p]);
+    }
+  }
+}
+
+/// Where the mesh nodes of the blocks [begin, end) are; of velocities, theirs.
+void place_nodes(const BlockSet& b, const BodyVectors& u, std::vector<Vec2>& to, std::size_t begin,
+                 std::size_t end) {
+  const Meshes& m = b.meshes;
+  const std::size_t mode = b.bending.modes();
+  for (std::size_t i = begin; i < end; ++i) {
+    const AffineMotion affine = affine_motion(b, vectors_of(u, i), i);
+    for (std::size_t j = m.begin[i]; j < m.begin[i + 1]; ++j)
+      to[j] = affine.of(m.arm_x[j], m.arm_y[j]) + u.modes[mode + j];
+  }
+}
+
+void place_all_nodes(const BlockSet& b, const State& s, Zones& zones) {
+  zones.place.resize(b.meshes.nodes());
+  zones.rate.resize(b.meshes.nodes());
+  parallel_blocks(b.size(), 40, [&](std::size_t, std::size_t begin, std::size_t end) {
+    place_nodes(b, s.position, zones.place, begin, end);
+    place_nodes(b, s.velocity, zones.rate, begin, end);
+  });
+}
+
+/// Those of the nodes of a zone.
+std::array<Vec2, corners_of_zone> at_corners(const Meshes& m, const std::vector<Vec2>& of,
+                                             std::uint32_t z) {
+  const auto& [a, b, c] = m.zone[z];
+  return {of[a], of[b], of[c]};
+}
+
+void evaluate_pair(const ZoneModel& model, const BlockSet& b, double h, Zones& all, std::size_t p) {
+  const std::size_t i = model.pair_block[p];
+  const std::array<std::uint32_t, 2> zone = model.pair[p];
+  const std::size_t many = zone[1] == no_partner ? 1 : 2;
+  std::array<ZoneShape, 2> shape{};
+  std::array<ZoneState, 2> state;
+  std::array<std::array<Vec2, 3>, 2> x{};
+  for (std::size_t q = 0; q < many; ++q) {
+    shape[q] = model.shape[zone[q]];
+    state[q] = all.state[zone[q]];
+    x[q] = at_corners(b.meshes, all.place, zone[q]);
+  }
+  const ZoneMaterial& rock = all.material[static_cast<std::size_t>(b.material[i])];
+  const std::array<ZoneResult, 2> result = evaluate_zones(shape, rock, x, state);
+  double stored = 0.0, change = 0.0;
+  for (std::size_t q = 0; q < many; ++q) {
+    const std::uint32_t z = zone[q];
+    const std::array<Vec2, 3> v = at_corners(b.meshes, all.rate, z);
+    for (std::size_t k = 0; k < corners_of_zone; ++k)
+      change += dot(result[q].force[k] - all.force[z][k], h * v[k]);
+    all.state[z] = state[q];
+    all.force[z] = result[q].force;
+    all.stress[z] = result[q].stress;
+    all.yielding[z] = static_cast<std::uint8_t>(result[q].yielding);
+    stored += result[q].stored;
+    all.dissipated[p] += result[q].dissipated;
+  }
+  all.stored_between[p] = 0.5 * (all.stored[p] + stored) + 0.25 * change;
+  all.stored[p] = stored;
+}
+
+/// Stress at the start: xx, yy, zz, xy.
+std::array<double, 4> stress_at(const Model& model, const Material& material,
+                                const StressField& field, Vec2 at) {
+  const Tensor t = field.at(at);
+  return {t.xx, t.yy, out_of_plane_stress(model, material, t), t.xy};
+}
+
+}  // namespace
+
+ZoneModel make_zones(const Model& model, const BlockSet& b) {
+  const Meshes& m = b.meshes;
+  ZoneModel zones;
+  if (!m.any()) return zones;
+  for (const Material& material : model.materials)
+    zones.material.push_back(zone_material(material));
+  zones.pair_begin.push_back(0);
+  std::vector<std::uint32_t> count(m.nodes() + 1, 0);
+  for (std::size_t i = 0; i < b.size(); ++i) {
+    const Mesh mesh = mesh_of(m, i);
+    for (const Triangle& t : mesh.triangles)
+      zones.shape.push_back(
+          zone_shape(mesh.nodes[t[0]], mesh.nodes[t[1]], mesh.nodes[t[2]], b.thickness));
+    const std::uint32_t first = m.zone_begin[i];
+    for (const auto& [one, other] : pair_triangles(mesh)) {
+      zones.pair.push_back({first + one, other == no_partner ? no_partner : first + other});
+      zones.pair_block.push_back(static_cast<std::uint32_t>(i));
+    }
+    zones.pair_begin.push_back(static_cast<std::uint32_t>(zones.pair.size()));
+  }
+  for (const auto& zone : m.zone) {
+    for (const std::uint32_t j : zone) ++count[j + 1];
+  }
+  for (std::size_t j = 0; j < m.nodes(); ++j) count[j + 1] += count[j];
+  zones.around_begin = count;
+  zones.around.resize(3 * m.zone.size());
+  for (std::uint32_t z = 0; z < m.zone.size(); ++z) {
+    for (std::uint32_t k = 0; k < corners_of_zone; ++k)
+      zones.around[count[m.zone[z][k]]++] = 3 * z + k;
+  }
+  find_squares(zones, model, b);
+  return zones;
+}
+
+std::vector<ZoneMaterial> divided_strength(const ZoneModel& zones, double factor) {
+  std::vector<ZoneMaterial> materials;
+  for (const ZoneMaterial& rock : zones.material) materials.push_back(divided(rock, factor));
+  return materials;
+}
+
+Zones zones_at_start(const ZoneModel& zones, const Model& model, const BlockSet& b,
+                     const State& state, double factor) {
+  Zones all;
+  all.material = divided_strength(zones, factor);
+  const std::size_t many = zones.shape.size(), pairs = zones.pair.size();
+  all.state.resize(many);
+  all.force.resize(many);
+  all.stress.resize(many);
+  all.yielding.resize(many);
+  for (auto* of : {&all.stored, &all.stored_between, &all.dissipated}) of->assign(pairs, 0.0);
+  if (model.initial_stress) {
+    const StressField field(model, b.origin);
+    for (std::size_t i = 0; many > 0 && i < b.size(); ++i) {
+      const Vec2 centre{b.centroid_x[i], b.centroid_y[i]};
+      for (std::uint32_t z = b.meshes.zone_begin[i]; z < b.meshes.zone_begin[i + 1]; ++z) {
+        Vec2 sum;
+        for (const std::uint32_t j : b.meshes.zone[z])
+          sum += Vec2{b.meshes.arm_x[j], b.meshes.arm_y[j]};
+        const auto material = static_cast<std::size_t>(b.material[i]);
+        all.state[z] =
+            zone_at_start(zones.material[material],
+                          stress_at(model, model.materials[material], field, centre + sum / 3.0));
+      }
+    }
+  }
+  for (const auto& [one, other] : zones.pair) {
+    if (other == no_partner) continue;
+    std::array<ZoneState, 2> both{all.state[one], all.state[other]};
+    lock_pressures({zones.shape[one], zones.shape[other]}, both);
+    all.state[one] = both[0];
+    all.state[other] = both[1];
+  }
+  evaluate_zones(zones, b, state, 0.0, all);
+  all.stored_between = all.stored;
+  return all;
+}
+
+void evaluate_zones(const ZoneModel& model, const BlockSet& b, const State& s, double h,
+                    Zones& zones) {
+  if (model.pair.empty()) return;
+  place_all_nodes(b, s, zones);
+  parallel_for(
+      model.pair.size(),
+      [&](std::size_t p) {
+        if (s.alive[model.pair_block[p]] != 0) evaluate_pair(model, b, h, zones, p);
+      },
+      cost_of_a_pair);
+}
+
+void start_zones(const ZoneModel& model, const BlockSet& b, const State& s, double h,
+                 Zones& zones) {
+  if (model.pair.empty()) return;
+  place_all_nodes(b, s, zones);
+  for (std::size_t p = 0; p < model.pair.size(); ++p) {
+    double power = 0.0;
+    for (const std::uint32_t z : model.pair[p]) {
+      if (z == no_partner) continue;
+      const std::array<Vec2, corners_of_zone> v = at_corners(b.meshes, zones.rate, z);
+      for (std::size_t k = 0; k < corners_of_zone; ++k) power += dot(zones.force[z][k], v[k]);
+    }
+    zones.stored_between[p] = zones.stored[p] + 0.5 * h * power;
+  }
+}
+
+void set_zone_forces(const ZoneModel& model, const BlockSet& b, const Zones& zones, Vec2 gravity,
+                     BodyVectors& forces, std::size_t begin, std::size_t end) {
+  const Meshes& m = b.meshes;
+  for (std::size_t i = begin; m.any() && i < end; ++i) {
+    if (!b.is_meshed(i)) continue;
+    AffinePart common;
+    for (std::uint32_t j = m.begin[i]; j < m.begin[i + 1]; ++j) {
+      Vec2 sum;
+      for (std::uint32_t q = model.around_begin[j]; q < model.around_begin[j + 1]; ++q) {
+        const std::uint32_t corner = model.around[q];
+        sum += zones.force[corner / 3][corner % 3];
+      }
+      forces.modes.set(b.bending.modes() + j, sum);
+      m.add(common, j, sum);
+    }
+    // w_kj = 1/3 + G_k . (X_j - C), and forces of zones have no resultant.
+    NodeVectors f =
+        nodal_forces_of(b, Deformation{common.x.x, common.y.x, common.x.y, common.y.y}, 1.0, i);
+    for (Vec2& of_node : f) of_node += (b.mass[i] / nodes_per_block) * gravity;
+    store(f, forces, i);
+  }
+}
+
+double stored_in_zones(const ZoneModel& model, const Zones& zones, std::size_t i) {
+  double sum = 0.0;
+  for (std::uint32_t p = model.pair_begin[i]; p < model.pair_begin[i + 1]; ++p)
+    sum += zones.stored_between[p];
+  return sum;
+}
+
+double dissipated_in_zones(const Zones& zones) {
+  return ordered_sum(zones.dissipated.size(), [&](std::size_t p) { return zones.dissipated[p]; });
+}
+
+std::array<double, 4> mean_stress(const BlockSet& b, const ZoneModel& model, const Zones& zones,
+                                  std::size_t i) {
+  std::array<double, 4> sum{};
+  double volume = 0.0;
+  for (std::uint32_t z = b.meshes.zone_begin[i]; z < b.meshes.zone_begin[i + 1]; ++z) {
+    const double v = model.shape[z].volume;
+    for (std::size_t c = 0; c < sum.size(); ++c) sum[c] += v * zones.stress[z][c];
+    volume += v;
+  }
+  for (double& component : sum) component /= volume;
+  return sum;
+}
+
+}  // namespace edda

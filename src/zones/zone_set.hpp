@@ -1,0 +1,75 @@
+// The zones of all meshed blocks: their rock, what they remember, and their forces on mesh nodes.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "blocks/initial_stress.hpp"
+#include "blocks/state.hpp"
+#include "zones/zone.hpp"
+
+namespace edda {
+
+/// What does not change during a run. Zones and mesh nodes are those of BlockSet::meshes.
+struct ZoneModel {
+  std::vector<ZoneShape> shape;                    ///< [zones]
+  std::vector<std::array<std::uint32_t, 2>> pair;  ///< [pairs] zones; second: no_partner
+  std::vector<std::uint32_t> pair_begin;           ///< [nb + 1] first pair of each block
+  std::vector<std::uint32_t> pair_block;           ///< [pairs]
+  std::vector<ZoneMaterial> material;              ///< [materials of the model]
+  std::vector<std::uint32_t> around_begin;         ///< [mesh nodes + 1]
+  std::vector<double> square;  ///< [mesh nodes] largest of the squares of the highest frequencies
+                               ///< that pairs around it have by themselves, 1/s2
+  std::vector<std::uint32_t> around;  ///< corners of zones at each node: 3 zone + k
+};
+ZoneModel make_zones(const Model& model, const BlockSet& blocks);
+
+/// The materials with their strength divided by a factor (divided()).
+std::vector<ZoneMaterial> divided_strength(const ZoneModel& zones, double factor);
+
+/// What changes. All but `material` and `state` is of the last evaluation.
+struct Zones {
+  std::vector<ZoneMaterial> material;         ///< [materials of the model] with the strength in
+                                              ///< force
+  std::vector<ZoneState> state;               ///< [zones]
+  std::vector<std::array<Vec2, 3>> force;     ///< [zones] on its nodes, N
+  std::vector<std::array<double, 4>> stress;  ///< [zones] Cauchy, xx, yy, zz, xy, Pa
+  std::vector<std::uint8_t> yielding;         ///< [zones] Yielding
+  std::vector<double> stored;                 ///< [pairs] J, at the positions
+  std::vector<double> stored_between;         ///< [pairs] J, in the terms of the energy balance:
+                                              ///< between the positions before and these
+  std::vector<double> dissipated;             ///< [pairs] J, by plastic strain so far
+  std::vector<Vec2> place, rate;              ///< [mesh nodes] m and m/s
+};
+/// Undeformed and at rest, under the initial stress of the model, if it has one; strength divided
+/// by `factor`.
+Zones zones_at_start(const ZoneModel& zones, const Model& model, const BlockSet& blocks,
+                     const State& state, double factor);
+
+/// Evaluates the zones of the blocks that are alive at the positions x_{n+1} of a state, to which
+/// they have moved by h v from those of the last evaluation. With forces f = -grad W a leapfrog
+/// keeps, between x_n and x_{n+1}, what linear springs store by x_n K x_{n+1}/2,
+///   (W_n + W_{n+1})/2 + (f_{n+1} - f_n) . h v/4.
+void evaluate_zones(const ZoneModel& model, const BlockSet& blocks, const State& state, double h,
+                    Zones& zones);
+
+/// The same terms at the start, where velocities are those half a step h (s) before: W + f . h v/2.
+void start_zones(const ZoneModel& model, const BlockSet& blocks, const State& state, double h,
+                 Zones& zones);
+
+/// Sets the forces on the meshed blocks of [begin, end) to those of their zones and their weight;
+/// gravity in m/s2.
+void set_zone_forces(const ZoneModel& model, const BlockSet& blocks, const Zones& zones,
+                     Vec2 gravity, BodyVectors& forces, std::size_t begin, std::size_t end);
+
+/// What the zones of block i store in the terms of the energy balance, and what all zones have
+/// dissipated so far, J.
+double stored_in_zones(const ZoneModel& model, const Zones& zones, std::size_t i);
+double dissipated_in_zones(const Zones& zones);
+
+/// Mean Cauchy stress of the zones of block i by area: xx, yy, zz, xy, Pa.
+std::array<double, 4> mean_stress(const BlockSet& blocks, const ZoneModel& model,
+                                  const Zones& zones, std::size_t i);
+
+}  // namespace edda
