@@ -37,13 +37,15 @@ void print_blocks(const Simulation& sim, const ModelCheck& found) {
 
 void print_places(const PreparedRun& run) {
   const BlockSet& blocks = run.sim.scene->blocks;
-  for (const MonitorPoint& m : run.monitors) {
+  for (const MonitorPoint& m : run.gauges.monitors) {
     fmt::print("monitor         {} in {}\n", m.name, block_label(blocks, m.block));
   }
-  for (const ConvergenceLine& line : run.convergences) {
+  for (const ConvergenceLine& line : run.gauges.convergences) {
     fmt::print("convergence     {} from {} to {}\n", line.name,
                block_label(blocks, line.ends[0].block), block_label(blocks, line.ends[1].block));
   }
+  for (const MeasuredRegion& region : run.gauges.measurements)
+    fmt::print("measurement     {} over {:.4g} m2\n", region.name, region.area);
 }
 
 void print_step(const Simulation& sim, const ModelCheck& found) {
@@ -128,7 +130,7 @@ void print_object(const PreparedRun& run, const ModelCheck& found) {
   }
   json.pair("governed_by", run.governed_by);
   json.key("monitors").open_object();
-  for (const MonitorPoint& m : run.monitors) {
+  for (const MonitorPoint& m : run.gauges.monitors) {
     json.pair(m.name, block_label(sim.scene->blocks, m.block));
   }
   json.close();

@@ -71,7 +71,7 @@ class AsJoints {
 };
 
 /// The spring of a vertex on these lines, or nothing where it lies on none. At a corner of two
-/// rollers it acts across both lines; pieces of one straight line count once.
+/// lines that slide it acts across both lines; pieces of one straight line count once.
 std::optional<Spring> spring_at(Id v, Index row, const Boundary& boundary, const BlockSet& b,
                                 const std::vector<Line>& lines, const AsJoints& as_joints,
                                 double snap) {
@@ -84,7 +84,7 @@ std::optional<Spring> spring_at(Id v, Index row, const Boundary& boundary, const
     const auto stiffness = [&](Vec2 n) {
       return b.thickness * (boundary.stiffness ? *boundary.stiffness : as_joints.at(v, n));
     };
-    if (boundary.type != BoundaryType::roller) {
+    if (!boundary.slides()) {
       s.kxx = s.kyy = stiffness({});
       break;
     }

@@ -276,17 +276,17 @@ void Simulation::add_monitor(const std::string& name, Point point) {
           "move it into one (edda cut draws them)");
   }
   sim.scene.edit().model.monitors.push_back({name, {point.x, point.y}, {}});
-  impl_->prepared.monitors.push_back(point_of_block(name, sim.scene->blocks, *block, p));
+  impl_->prepared.gauges.monitors.push_back(point_of_block(name, sim.scene->blocks, *block, p));
 }
 
 std::vector<std::string> Simulation::monitors() const {
   std::vector<std::string> names;
-  for (const MonitorPoint& m : impl_->prepared.monitors) names.push_back(m.name);
+  for (const MonitorPoint& m : impl_->prepared.gauges.monitors) names.push_back(m.name);
   return names;
 }
 
 MonitorReading Simulation::read(const std::string& monitor) const {
-  for (const MonitorPoint& m : impl_->prepared.monitors) {
+  for (const MonitorPoint& m : impl_->prepared.gauges.monitors) {
     if (m.name != monitor) continue;
     const edda::MonitorReading r = read_monitor(impl_->sim(), impl_->look(), m);
     return {r.displacement.x, r.displacement.y, r.velocity.x, r.velocity.y,

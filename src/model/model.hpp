@@ -168,11 +168,14 @@ struct Boundary {
       traction;  ///< Pa, on the edges along it; stress; empty: that of the initial stress
   std::optional<Vec2> velocity;      ///< m/s; velocity
   std::optional<Vec2> displacement;  ///< m, from the start; displacement
+  bool frictionless = false;         ///< springs across the line only; velocity, displacement
   std::optional<Vec2> wave_speeds;   ///< m/s, P and S; viscous; empty: the rock's own
   std::string history;               ///< path of a file of time, factor; stress, velocity,
                                      ///< displacement
   TimeHistory factor;
   Where where;
+  /// Whether its springs act across its line only.
+  bool slides() const { return type == BoundaryType::roller || frictionless; }
 };
 
 /// Acceleration of the ground over time: linear between its rows, zero before the first and after
@@ -300,6 +303,13 @@ struct Convergence {
   Where where;
 };
 
+/// [[measurement]]: a region whose mean stress and strain are recorded.
+struct Measurement {
+  std::string name;
+  std::vector<Vec2> polygon;  ///< at the start
+  Where where;
+};
+
 /// [zones]: the mesh of meshed blocks.
 struct ZoneInputs {
   std::optional<double> size;    ///< m, of the edges of zones; at openings, where there are any;
@@ -346,6 +356,7 @@ struct Model {
   std::vector<BoltPattern> bolt_patterns;
   std::vector<Monitor> monitors;
   std::vector<Convergence> convergences;
+  std::vector<Measurement> measurements;
   std::vector<Stage> stages;  ///< in sequence; none: one, until solver.duration
   Solver solver;
   Output output;

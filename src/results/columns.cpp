@@ -26,6 +26,8 @@ std::vector<NamedColumn> named_columns(const ResultTable& table, const ColumnOwn
         return owners.monitors;
       case ColumnOf::convergence:
         return owners.convergences;
+      case ColumnOf::measurement:
+        return owners.measurements;
       case ColumnOf::boundary:
         return owners.boundaries;
       case ColumnOf::quantity:

@@ -13,9 +13,9 @@
 
 namespace edda {
 
-/// What a file has the column for: once, or for each monitor, convergence line or boundary; of a
-/// study for each quantity that varies, or that is asked.
-enum class ColumnOf { file, monitor, convergence, boundary, quantity, answer };
+/// What a file has the column for: once, or for each monitor, convergence line, measured region or
+/// boundary; of a study for each quantity that varies, or that is asked.
+enum class ColumnOf { file, monitor, convergence, measurement, boundary, quantity, answer };
 
 struct ResultColumn {
   std::string_view name;     ///< as in the header; NAME.ux stands for crown.ux of a monitor crown
@@ -63,7 +63,8 @@ bool is_result_table(std::string_view name);
 
 /// Names of what has columns of its own, in the order of the columns.
 struct ColumnOwners {
-  std::vector<std::string> monitors{}, convergences{}, boundaries{}, quantities{}, answers{};
+  std::vector<std::string> monitors{}, convergences{}, measurements{}, boundaries{}, quantities{},
+      answers{};
 };
 
 /// The names of rows of the model, or of what was made of them.

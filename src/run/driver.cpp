@@ -114,7 +114,7 @@ void Driver::begin() {
   if (!resumed_) {
     outcome_.critical_step = sim_.control.bound.critical_step;
     within_memory([&] {
-      if (!ended_by(recorder_.begin(sim_, run_.monitors, run_.convergences))) enter_first_stage();
+      if (!ended_by(recorder_.begin(sim_, run_.gauges))) enter_first_stage();
     });
   } else if (stage_has_ended_) {
     stage_has_ended_ = false;
@@ -282,8 +282,7 @@ bool Driver::record(const Event& event) {
     look_at_motion(sim_, instant, outcome_);
     outcome_.slowed_in_fall = std::max(outcome_.slowed_in_fall, slowed_down_in_fall(sim_));
     last_row_ = sim_.motion.state.time;
-    fine = !ended_by(recorder_.row(sim_, instant, run_.monitors, run_.convergences, energy,
-                                   outcome_.unbalanced));
+    fine = !ended_by(recorder_.row(sim_, instant, run_.gauges, energy, outcome_.unbalanced));
   }
   if (fine && event.frame && recorder_.writes()) {
     last_frame_ = sim_.motion.state.time;

@@ -197,7 +197,7 @@ void Driver::list_stages(Archive& a) {
     a(of + "yielded", r.yielded);
     a(of + "convergences", r.convergences);
     if constexpr (Archive::loads) {
-      if (r.convergences.size() != run_.convergences.size()) {
+      if (r.convergences.size() != run_.gauges.convergences.size()) {
         a.refuse("stages do not fit the model");
       }
     }
@@ -244,7 +244,7 @@ void Driver::list(Archive& a) {
   list_stages(a);
   const Model& model = sim_.scene->model;
   list_ramp(a, ramp_, stage_ < plans_.size() && stage().ramp);
-  list_curve(a, curve_, model, run_.monitors.size());
+  list_curve(a, curve_, model, run_.gauges.monitors.size());
   a("driver.angle", angle_);
   a("driver.last_row", last_row_);
   a("driver.last_frame", last_frame_);
@@ -370,7 +370,7 @@ Trouble Driver::restore(const Record& record) {
     if (next.time != event_.time) fit_step_to(sim_, next.time);
     event_ = next;
   }
-  return recorder_.resume(sim_, run_.monitors, run_.convergences, files_);
+  return recorder_.resume(sim_, run_.gauges, files_);
 }
 
 }  // namespace edda

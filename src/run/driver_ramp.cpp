@@ -51,7 +51,7 @@ void Driver::end_increment(bool holds) {
   row.reason = ramp_.search ? ramp_.search->reason() : holds ? "in equilibrium" : "keeps moving";
   const Instant& at = look();
   row.force = ramped_force(sim_, at, *stage().ramp);
-  for (const MonitorPoint& monitor : run_.monitors)
+  for (const MonitorPoint& monitor : run_.gauges.monitors)
     row.monitors.push_back(read_monitor(sim_, at, monitor).displacement);
   curve_.push_back(std::move(row));
 }

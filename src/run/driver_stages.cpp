@@ -101,7 +101,7 @@ bool Driver::end_stage(Arrival went) {
   }
   if (!sim_.scene->model.stages.empty()) {
     ends_.push_back(stage_record(sim_, outcome_.energy, stage_start_, stage_steps_, reached));
-    for (const ConvergenceLine& line : run_.convergences) {
+    for (const ConvergenceLine& line : run_.gauges.convergences) {
       ends_.back().convergences.push_back(convergence(sim_.scene->blocks, sim_.motion.state, line));
     }
     if (options_.stage_ended) options_.stage_ended(report_of_stage());

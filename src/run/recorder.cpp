@@ -14,9 +14,9 @@
 namespace edda {
 namespace {
 
-ColumnOwners owners_of(const Model& model, const std::vector<MonitorPoint>& monitors,
-                       const std::vector<ConvergenceLine>& lines) {
-  return {names_in(monitors), names_in(lines), boundary_names(model)};
+ColumnOwners owners_of(const Model& model, const Gauges& gauges) {
+  return {names_in(gauges.monitors), names_in(gauges.convergences), names_in(gauges.measurements),
+          boundary_names(model)};
 }
 
 /// The files that the model was read from; none for a model built in memory.
@@ -33,8 +33,7 @@ std::vector<InputFile> inputs_of(const Model& model) {
 
 }  // namespace
 
-Trouble Recorder::begin(const Simulation& sim, const std::vector<MonitorPoint>& monitors,
-                        const std::vector<ConvergenceLine>& lines) {
+Trouble Recorder::begin(const Simulation& sim, const Gauges& gauges) {
   if (!writes()) return {};
   inputs_ = inputs_of(sim.scene->model);
   if (auto t = make_folder(folder_)) return t;
@@ -42,7 +41,7 @@ Trouble Recorder::begin(const Simulation& sim, const std::vector<MonitorPoint>& 
   if (auto t = clear_folder(folder_)) return t;
   if (auto t = write_file(path("model.toml"), to_toml(sim.scene->model))) return t;
   if (auto t = history_.open(path("history.csv"))) return t;
-  owners_ = owners_of(sim.scene->model, monitors, lines);
+  owners_ = owners_of(sim.scene->model, gauges);
   const auto header = [this](ResultFile file) { return begin_table(file, owners_).text(); };
   if (auto t = history_.add(header(ResultFile::history))) return t;
   if (!sim.scene->model.boundaries.empty()) {
@@ -69,10 +68,10 @@ Trouble Recorder::sync() {
   return frames_ ? frames_->write_series() : Trouble{};
 }
 
-Trouble Recorder::resume(const Simulation& sim, const std::vector<MonitorPoint>& monitors,
-                         const std::vector<ConvergenceLine>& lines, const RecorderMemory& memory) {
+Trouble Recorder::resume(const Simulation& sim, const Gauges& gauges,
+                         const RecorderMemory& memory) {
   if (!writes()) return {};
-  owners_ = owners_of(sim.scene->model, monitors, lines);
+  owners_ = owners_of(sim.scene->model, gauges);
   if (auto t = lock_.take(folder_)) return t;
   inputs_ = memory.inputs;
   if (auto t = history_.reopen(path("history.csv"), memory.history_bytes)) return t;
@@ -99,20 +98,24 @@ Trouble Recorder::write_model_file(const Model& model) {
   return write_file(file, text);
 }
 
-Trouble Recorder::row(const Simulation& sim, const Instant& at,
-                      const std::vector<MonitorPoint>& monitors,
-                      const std::vector<ConvergenceLine>& lines, const EnergyBalance& l,
-                      double unbalanced) {
+Trouble Recorder::row(const Simulation& sim, const Instant& at, const Gauges& gauges,
+                      const EnergyBalance& l, double unbalanced) {
   if (!writes()) return {};
   if (auto t = frames_ ? frames_->collect() : Trouble{}) return t;
   Csv csv;
   csv.add(sim.motion.state.time);
-  for (const MonitorPoint& m : monitors) {
+  for (const MonitorPoint& m : gauges.monitors) {
     const MonitorReading r = read_monitor(sim, at, m);
     csv.add(r.displacement.x).add(r.displacement.y).add(r.velocity.x).add(r.velocity.y);
     csv.add(r.stress.xx).add(r.stress.yy).add(r.stress.xy);
   }
-  for (const ConvergenceLine& line : lines) csv.add(convergence(sim.scene->blocks, at.state, line));
+  for (const ConvergenceLine& line : gauges.convergences)
+    csv.add(convergence(sim.scene->blocks, at.state, line));
+  for (const MeasuredRegion& region : gauges.measurements) {
+    const auto [stress, strain] = mean_state(sim, at, region);
+    csv.add(stress.xx).add(stress.yy).add(stress.zz).add(stress.xy);
+    csv.add(strain.xx).add(strain.yy).add(strain.xy);
+  }
   for (const double v : {l.kinetic, l.strain, l.contact, l.gravity, l.friction, l.damping,
                          l.fracture, l.external, l.step_change, l.error, unbalanced, l.transfer}) {
     csv.add(v);

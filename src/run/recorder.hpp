@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "observe/monitors.hpp"
+#include "observe/gauges.hpp"
 #include "observe/outcome.hpp"
 #include "observe/summary.hpp"
 #include "results/columns.hpp"
@@ -29,18 +29,15 @@ class Recorder {
 
   /// Creates or empties the folder; writes model.toml and the headers of the tables that grow. From
   /// here on columns.csv lists the columns of the tables that are there.
-  Trouble begin(const Simulation& sim, const std::vector<MonitorPoint>& monitors,
-                const std::vector<ConvergenceLine>& lines);
+  Trouble begin(const Simulation& sim, const Gauges& gauges);
   /// Restores a folder to its state at a checkpoint: tables that grow are cut to their length then,
   /// later frames are removed, and model.toml is that of the present model.
-  Trouble resume(const Simulation& sim, const std::vector<MonitorPoint>& monitors,
-                 const std::vector<ConvergenceLine>& lines, const RecorderMemory& memory);
+  Trouble resume(const Simulation& sim, const Gauges& gauges, const RecorderMemory& memory);
   RecorderMemory memory() const;
   /// Writes to disk everything that a checkpoint relies on.
   Trouble sync();
-  Trouble row(const Simulation& sim, const Instant& at, const std::vector<MonitorPoint>& monitors,
-              const std::vector<ConvergenceLine>& lines, const EnergyBalance& energy,
-              double unbalanced);
+  Trouble row(const Simulation& sim, const Instant& at, const Gauges& gauges,
+              const EnergyBalance& energy, double unbalanced);
   /// Waits until the last frame is written, so that one picture at a time is in memory.
   Trouble finish_frame() { return frames_ ? frames_->finish() : Trouble{}; }
   Trouble frame(const Simulation& sim, Picture picture);

@@ -101,8 +101,8 @@ void warn_of_lost_points(const PreparedRun& run, std::vector<std::string>& warni
                       what, name, stage.name));
     }
   };
-  for (const MonitorPoint& m : run.monitors) look("monitor", m.name, m.block);
-  for (const ConvergenceLine& line : run.convergences) {
+  for (const MonitorPoint& m : run.gauges.monitors) look("monitor", m.name, m.block);
+  for (const ConvergenceLine& line : run.gauges.convergences) {
     look("an end of convergence", line.name, line.ends[0].block);
     look("an end of convergence", line.name, line.ends[1].block);
     const std::size_t block = line.ends[0].block;
@@ -120,20 +120,17 @@ Result<PreparedRun> prepared(Model model, BlockOrder order, ReadFor what_for) {
   if (timeless && what_for == ReadFor::run) return *timeless;
   Result<Simulation> made = Simulation::create(std::move(model), order);
   if (!made.ok()) return made.faults();
-  PreparedRun run{std::move(made.value()), {}, {}, {}, {}, 0.0};
+  PreparedRun run{std::move(made.value()), {}, {}, {}, 0.0};
   judge_initial_stress(run.sim);
   run.cut_seconds = since(start);
   Faults faults;
-  Result<std::vector<MonitorPoint>> monitors = place_monitors(run.sim);
-  if (!monitors.ok()) faults = monitors.faults();
-  Result<std::vector<ConvergenceLine>> lines = place_convergences(run.sim);
-  if (!lines.ok()) faults.insert(faults.end(), lines.faults().begin(), lines.faults().end());
+  Result<Gauges> gauges = place_gauges(run.sim);
+  if (!gauges.ok()) faults = gauges.faults();
   if (auto fault = unstable_step(run.sim)) faults.push_back(*fault);
   if (auto fault = heavy_scaling(run.sim)) faults.push_back(*fault);
   if (auto fault = beyond_disks(run.sim)) faults.push_back(*fault);
   if (!faults.empty()) return faults;
-  run.monitors = std::move(monitors.value());
-  run.convergences = std::move(lines.value());
+  run.gauges = std::move(gauges.value());
   std::vector<std::string> on_borders = border_points(run.sim);
   // The polygons are no longer needed: the blocks have their shapes, and all points have been
   // located.

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "model/read_model.hpp"
-#include "observe/monitors.hpp"
+#include "observe/gauges.hpp"
 #include "observe/outcome.hpp"
 #include "step/simulation.hpp"
 
@@ -63,8 +63,7 @@ struct RunOptions {
 /// A run ready to start. Of its polygons only the report of the cut remains.
 struct PreparedRun {
   Simulation sim;
-  std::vector<MonitorPoint> monitors;
-  std::vector<ConvergenceLine> convergences;
+  Gauges gauges;
   std::string governed_by;            ///< what governs the step
   std::vector<std::string> warnings;  ///< guard rails
   double cut_seconds = 0.0;           ///< s, wall time of cutting and building

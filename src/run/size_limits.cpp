@@ -50,9 +50,10 @@ std::optional<Fault> beyond_disks(const Simulation& sim) {
   const double frames =
       duration / output.every * static_cast<double>(sim.scene->blocks.vertex_count()) * per_vertex;
   const Model& model = sim.scene->model;
-  const auto columns = static_cast<double>(column_count(
-      ResultFile::history,
-      {.monitors = names_in(model.monitors), .convergences = names_in(model.convergences)}));
+  const auto columns = static_cast<double>(
+      column_count(ResultFile::history, {.monitors = names_in(model.monitors),
+                                         .convergences = names_in(model.convergences),
+                                         .measurements = names_in(model.measurements)}));
   const double rows = duration / output.history_every * columns * per_column;
   if (frames + rows <= most) return {};
   const bool by_frames = frames > rows;

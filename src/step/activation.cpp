@@ -49,14 +49,14 @@ Index owner_row(const Model& model, Index boundary) {
 }
 
 /// The part of a force on the vertex that a boundary can carry, 0 where the vertex does not lie on
-/// it. A roller carries the part across its lines.
+/// it. One that slides carries the part across its lines.
 Vec2 carried_by(const Model& model, const BlockSet& b, const Boundary& boundary, Id v, Vec2 force) {
   const double snap = boundary_snap(model, b);
   Vec2 first;
   bool on = false;
   for (const Line& line : boundary_lines(model, b, boundary)) {
     if (distance_to_segment(b.vertex(v), line.a, line.b) > snap) continue;
-    if (boundary.type != BoundaryType::roller) return force;
+    if (!boundary.slides()) return force;
     const Vec2 n = perp(unit(line.b - line.a));
     if (on && std::abs(cross(n, first)) > 1e-9) return force;  // a corner carries both components
     first = n;

@@ -339,7 +339,7 @@ Result<KeyBlocks> key_blocks(const Model& model, const KeyBlockOptions& options)
                     "give gravity or loads, and leave some blocks that are not fixed");
   }
   KeyBlocks found = search.run();
-  for (const MonitorPoint& m : prepared.value().monitors)
+  for (const MonitorPoint& m : prepared.value().gauges.monitors)
     found.monitors.push_back({m.name, found.of_block[m.block], found.generation_of_block[m.block]});
   for (const Vec2 place : options.places)
     found.at_place.push_back(

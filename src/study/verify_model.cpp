@@ -29,7 +29,7 @@ Result<End> run_to_end(PreparedRun& run, const RunOptions& how) {
   if (!outcome.ok()) return outcome.faults();
   End end;
   end.outcome = outcome.value();
-  for (const MonitorPoint& m : run.monitors) {
+  for (const MonitorPoint& m : run.gauges.monitors) {
     end.displacement.push_back(displacement_of(run.sim.scene->blocks, run.sim.motion.state, m));
   }
   return end;
@@ -41,10 +41,10 @@ Result<PreparedRun> prepare_like(const std::vector<MonitorPoint>& monitors, cons
                                  BlockOrder order) {
   Result<PreparedRun> run = prepare_run(model, order);
   if (!run.ok()) return run;
-  run.value().monitors = monitors;
+  run.value().gauges.monitors = monitors;
   if (order == BlockOrder::reversed) {
     const std::size_t blocks = run.value().sim.scene->blocks.size();
-    for (MonitorPoint& m : run.value().monitors) m.block = blocks - 1 - m.block;
+    for (MonitorPoint& m : run.value().gauges.monitors) m.block = blocks - 1 - m.block;
   }
   return run;
 }
@@ -149,7 +149,7 @@ constexpr const char* first_run = "as it is";
 /// The four runs; `base` is the first of them, prepared.
 std::vector<VerifyRun> runs_of(const Model& model, PreparedRun base) {
   const double step = base.sim.control.limit;
-  const std::vector<MonitorPoint> monitors = base.monitors;
+  const std::vector<MonitorPoint> monitors = base.gauges.monitors;
   const auto like_base = [monitors](const Model& changed, BlockOrder order) {
     return [=](const RunOptions& how) -> Result<End> {
       Result<PreparedRun> run = prepare_like(monitors, changed, order);
@@ -191,7 +191,7 @@ Result<Verification> verify_model(const Model& model, const VerifyOptions& optio
   if (options.starts) options.starts(first_run);
   Result<PreparedRun> base = prepare_run(model);
   if (!base.ok()) return base.faults();
-  for (const MonitorPoint& m : base.value().monitors) v.monitors.push_back({m.name, {}});
+  for (const MonitorPoint& m : base.value().gauges.monitors) v.monitors.push_back({m.name, {}});
   const std::size_t blocks = base.value().sim.scene->blocks.size();
   std::vector<VerifyRun> planned = runs_of(model, std::move(base.value()));
   const int at_once = tasks_within(memory_here(), static_cast<int>(planned.size()), blocks);

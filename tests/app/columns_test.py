@@ -45,6 +45,9 @@ point = [1.0, 1.5]
 [[monitor]]
 name = "side, left"
 point = [0.1, 0.5]
+[[measurement]]
+name = "M"
+polygon = [[0.4, 0.4], [1.6, 0.4], [1.0, 1.8]]
 [[convergence]]
 name = "H1"
 between = [[0.5, 1.9], [0.5, 0.1]]
@@ -115,6 +118,8 @@ class Columns(Program):
         for name in ("crown", "side, left"):
             self.assertEqual([columns["history.csv", f"{name}.{of}"][0] for of in OF_MONITOR],
                              ["m", "m", "m/s", "m/s", "Pa", "Pa", "Pa"])
+        self.assertEqual([columns["history.csv", f"M.mean_{of}"][0] for of in ("sxx", "syy", "szz", "sxy", "exx", "eyy", "exy")],
+                         ["Pa"] * 4 + ["1"] * 3)
         self.assertEqual(columns["history.csv", "H1.convergence"], columns["stages.csv", "H1.convergence"])
         self.assertEqual([c for f, c in columns if f == "reactions.csv"], ["time", "top.fx", "top.fy", "1.fx", "1.fy"])
         self.assertIn("positive in compression", columns["joints_2.csv", "normal_stress"][1])

@@ -71,6 +71,24 @@ TEST(BoundarySprings, RollerHoldsAcrossItsLineOnly) {
   }
 }
 
+TEST(BoundarySprings, AFrictionlessPlatenHoldsAcrossItsLineOnly) {
+  for (const BoundaryType type : {BoundaryType::velocity, BoundaryType::displacement}) {
+    for (const bool frictionless : {false, true}) {
+      Boundary platen = boundary(type, {"top"});
+      platen.frictionless = frictionless;
+      const Row r = row(platen);
+      const auto springs = attach_boundaries(r.model, r.blocks);
+      ASSERT_TRUE(springs.ok());
+      const BoundarySprings& s = springs.value();
+      ASSERT_EQ(s.size(), 6u);
+      for (std::size_t q = 0; q < s.size(); ++q) {
+        EXPECT_EQ(s.kyy[q], 5.0);
+        EXPECT_EQ(s.kxx[q], frictionless ? 0.0 : 5.0);
+      }
+    }
+  }
+}
+
 TEST(BoundarySprings, SlantedRollerIsAcrossThePolyline) {
   Row r = row(boundary(BoundaryType::roller, {}, {{0, 1}, {1, 0}}));
   const auto springs = attach_boundaries(r.model, r.blocks);

@@ -195,6 +195,7 @@ history = "tests/model/rise.csv"
 sides = ["left"]
 type = "velocity"
 velocity = ["1 mm/s", -0.5]
+frictionless = true
 [[boundary]]
 name = "yielding"
 along = [[0, 0], [1, 0]]
@@ -259,6 +260,9 @@ dowel = { stiffness = "100 MN/m", strength = "150 kN" }
 [[monitor]]
 name = "P1"
 point = [15, 9]
+[[measurement]]
+name = "roof"
+polygon = [[11, 5], [19, 5], [15, "8 m"]]
 [[convergence]]
 name = "H1"
 between = [[11, 5], ["19 m", 5]]

@@ -38,6 +38,9 @@ void expect_every_key(const Model& m) {
   EXPECT_EQ(m.initial_stress->gradient, (Triple{1e4, 27e3, 2.0}));
   EXPECT_EQ(m.initial_stress->k0_out, 0.75);
   EXPECT_FALSE(m.initial_stress->k0);
+  ASSERT_EQ(m.measurements.size(), 1U);
+  EXPECT_EQ(m.measurements[0].name, "roof");
+  EXPECT_EQ(m.measurements[0].polygon, (Ring{{11, 5}, {19, 5}, {15, 8}}));
   ASSERT_EQ(m.convergences.size(), 1U);
   EXPECT_EQ(m.convergences[0].name, "H1");
   EXPECT_EQ(m.convergences[0].between, (Ring{{11, 5}, {19, 5}}));
@@ -227,6 +230,7 @@ void expect_every_boundary_key(const Model& m) {
   EXPECT_EQ(m.boundaries[3].factor.value, (std::vector<double>{0.0, 2.5}));
   EXPECT_EQ(m.boundaries[4].type, BoundaryType::velocity);
   EXPECT_EQ(m.boundaries[4].velocity, (Vec2{0.001, -0.5}));
+  EXPECT_TRUE(m.boundaries[4].frictionless);
   EXPECT_EQ(m.boundaries[5].type, BoundaryType::displacement);
   EXPECT_EQ(m.boundaries[5].displacement, (Vec2{0.001, -0.02}));
   ASSERT_EQ(m.shakings.size(), 2U);

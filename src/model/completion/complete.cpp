@@ -337,6 +337,7 @@ void complete(const Value& root, Reading& reading) {
   check_names(root, "bolt", model.bolts, reading);
   check_names(root, "bolt_pattern", model.bolt_patterns, reading);
   check_names(root, "convergence", model.convergences, reading);
+  check_names(root, "measurement", model.measurements, reading);
   complete_boundaries(root, reading);
   complete_lines(root, reading);
   complete_initial_stress(root, reading);

@@ -39,6 +39,7 @@ const std::vector<TypeKey>& type_keys() {
        {T::displacement},
        true,
        "a displacement such as displacement = [0.0, -0.01]"},
+      {"frictionless", {T::velocity, T::displacement}, false, ""},
       {"wave_speeds", {T::viscous, T::free_field}, false, ""},
       {"history", {T::stress, T::velocity, T::displacement}, false, ""},
   };

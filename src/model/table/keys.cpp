@@ -136,6 +136,7 @@ constexpr std::array boundary_keys{
     Key{"traction", at<&Boundary::traction>, shape(Kind::point, D::stress), otherwise("that of [initial_stress]; required by type stress without one"), "Type stress: traction on the edges along the line, of constant direction."},
     Key{"velocity", at<&Boundary::velocity>, shape(Kind::point, D::velocity), otherwise("none; required by type velocity"), "Type velocity: velocity at which the vertices on the line are moved."},
     Key{"displacement", at<&Boundary::displacement>, shape(Kind::point, D::length), otherwise("none; required by type displacement"), "Type displacement: displacement of the support, from where its vertices lie when it begins to act; gradual in a stage until equilibrium."},
+    Key{"frictionless", at<&Boundary::frictionless>, flag, initial, "Types velocity and displacement: whether the springs act across the line only, so that vertices slide along it (a smooth platen)."},
     Key{"wave_speeds", at<&Boundary::wave_speeds>, shape(Kind::point, D::velocity, above(0)), otherwise("those of the unjointed rock of each block"), "Types viscous and free-field: speeds of P and S waves in the jointed rock."},
     Key{"history", at<&Boundary::history>, file, otherwise("constant from the start"), "Types stress, velocity and displacement: CSV file of time and factor, linear between its rows."},
 };
@@ -232,6 +233,11 @@ constexpr std::array bolt_pattern_keys{
 constexpr std::array monitor_keys{
     Key{"name", at<&Monitor::name>, naming, required, "What the columns of history.csv are called."},
     Key{"point", at<&Monitor::point>, point, required, "A material point of the block in which it lies at the start."},
+};
+
+constexpr std::array measurement_keys{
+    Key{"name", at<&Measurement::name>, naming, required, "What the columns of history.csv are called."},
+    Key{"polygon", at<&Measurement::polygon>, polygon, required, "Outline of the region at the start; its corners lie in rock."},
 };
 
 constexpr std::array convergence_keys{
@@ -358,6 +364,7 @@ constexpr std::array all_sections{
     section<&Model::bolt_patterns>("bolt_pattern", Shape::list, bolt_pattern_keys, "Bolts round an opening."),
     section<&Model::monitors>("monitor", Shape::list, monitor_keys, "A point whose history is written."),
     section<&Model::convergences>("convergence", Shape::list, convergence_keys, "Two points whose convergence is written."),
+    section<&Model::measurements>("measurement", Shape::list, measurement_keys, "A region whose mean stress and strain are written."),
     section<&Model::stages>("stage", Shape::list, stage_keys, "A part of the run, one after the other."),
     section<&Model::solver>("solver", Shape::table, solver_keys, "How the motion is computed."),
     section<&Model::output>("output", Shape::table, output_keys, "What is written, and how often."),
