@@ -98,6 +98,8 @@ TEST(BadModel, Boundaries) {
            Bad{at + "type = \"stress\"\n", 42, "boundary.1.traction", "is missing"},
            Bad{at + "type = \"velocity\"\n", 42, "boundary.1.velocity", "is missing"},
            Bad{at + "traction = [1, 0]\n", 44, "boundary.1.traction", "does not apply to type"},
+           Bad{at + "frictionless = true\n", 44, "boundary.1.frictionless",
+               "does not apply to type"},
            Bad{at + "type = \"viscous\"\nhistory = \"" EDDA_SOURCE_DIR "/tests/model/rise.csv\"\n",
                45, "boundary.1.history", "give another type: \"stress\""},
            Bad{at + "type = \"viscous\"\nwave_speeds = [0, 1]\n", 45, "boundary.1.wave_speeds[0]",

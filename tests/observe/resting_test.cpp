@@ -140,13 +140,13 @@ TEST(BorderPoints, AreToldAndGoWithTheBlockThatMoves) {
     return found;
   };
   const PreparedRun bed = with({0.5, 1.0});
-  EXPECT_EQ(bed.monitors[0].block, 1u);
+  EXPECT_EQ(bed.gauges.monitors[0].block, 1u);
   ASSERT_EQ(said(bed).size(), 1u);
   EXPECT_EQ(said(bed)[0],
             "monitor M at (0.5, 1) lies on the boundary between blocks: it moves with block 1 "
             "(slider), not with block 0 (floor); move it into the block that is meant");
   const PreparedRun between = with({1.0, 1.5});
-  EXPECT_EQ(between.monitors[0].block, 1u);
+  EXPECT_EQ(between.gauges.monitors[0].block, 1u);
   EXPECT_EQ(said(between).size(), 1u);
   EXPECT_TRUE(said(with({0.5, 1.5})).empty());
 }

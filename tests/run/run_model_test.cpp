@@ -161,7 +161,7 @@ polygon = [[1, 0], [2, 0], [2, 1], [1, 1]]
   const auto block_of = [&](const char* point) {
     Result<PreparedRun> run = prepared(falling + second, {std::string("monitor.M.point=") + point});
     EXPECT_TRUE(run.ok());
-    return run.value().monitors.at(0).block;
+    return run.value().gauges.monitors.at(0).block;
   };
   EXPECT_EQ(block_of("[1.0, 0.5]"), 0u);
   EXPECT_EQ(block_of("[1.1, 0.5]"), 1u);

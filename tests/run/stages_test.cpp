@@ -72,7 +72,7 @@ TEST(Stages, EquilibriumIsThatOfStatics) {
     const double weight = 2500.0 * 9.81, young = 2e9, spring = 2e10;
     const double settlement =
         weight / (2.0 * spring) * 3.0 + weight / young * (0.5 + 1.0) + 0.5 * weight / young;
-    const MonitorPoint& m = ready.monitors[0];
+    const MonitorPoint& m = ready.gauges.monitors[0];
     EXPECT_NEAR(displacement_of(ready.sim.scene->blocks, ready.sim.motion.state, m).y / -settlement,
                 1.0, 1e-3)
         << method;
@@ -331,7 +331,7 @@ TEST(Stages, ResetAndDampingApplyToTheirStage) {
                      "0.05\nreset_displacements = true\n[solver]\ndamping = { contact = 0.05 }\n"));
   const Outcome o = run(ready);
   EXPECT_EQ(o.status, Status::completed);
-  const MonitorPoint& m = ready.monitors[0];
+  const MonitorPoint& m = ready.gauges.monitors[0];
   EXPECT_LT(norm(displacement_of(ready.sim.scene->blocks, ready.sim.motion.state, m)), 1e-9);
   EXPECT_EQ(ready.sim.motion.damping.local, 0.0);
   EXPECT_EQ(ready.sim.motion.damping.contact, 0.05);

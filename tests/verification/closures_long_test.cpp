@@ -60,7 +60,7 @@ Closures closures_of(const std::string& text) {
   const testing::Ran r = testing::ran(text);
   EXPECT_EQ(r.outcome.status, Status::equilibrium) << r.outcome.message;
   const Simulation& sim = r.ready.sim;
-  const std::vector<ConvergenceLine>& lines = r.ready.convergences;
+  const std::vector<ConvergenceLine>& lines = r.ready.gauges.convergences;
   return {convergence(sim.scene->blocks, sim.motion.state, lines[0]),
           convergence(sim.scene->blocks, sim.motion.state, lines[1])};
 }

@@ -52,8 +52,11 @@ void check_type(const Value* node, const Boundary& boundary, Reading& reading) {
         std::find(key.types.begin(), key.types.end(), boundary.type) != key.types.end();
     const Value* value = find(node, key.name);
     const std::string path = boundary.where.key + "." + std::string(key.name);
-    // A single stiffness may remain from a boundary whose type was changed: it does no harm.
-    if (value != nullptr && !known && key.name != "stiffness") {
+    // A single stiffness may remain from a boundary whose type was changed, and a flag that is not
+    // set: they do no harm.
+    const bool harmless =
+        key.name == "stiffness" || (key.name == "frictionless" && !boundary.frictionless);
+    if (value != nullptr && !known && !harmless) {
       std::vector<std::string_view> types;
       for (const BoundaryType t : key.types) types.push_back(name_of(t));
       add_fault(reading, value->place, path,
