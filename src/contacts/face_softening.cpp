@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "contacts/face_bonds.hpp"
 #include "contacts/face_energy.hpp"
 #include "contacts/strength.hpp"
 
@@ -105,6 +106,14 @@ void open_crack(FaceSet& c, const FaceScene& scene, std::size_t k) {
   c.parted_b[k] = std::max(parted.b, c.gap_b[k]);
 }
 
+/// A face without any normal force would lose its shear springs: it is pressed by next to nothing.
+void keep_in_touch(FaceSet& c, const FaceScene& scene, std::size_t k) {
+  constexpr double part = 1e-9;  // of w_c
+  if (face_at(c, scene.blocks, scene.pose.x, scene.pose.y, k).energy > 0.0) return;
+  const double least = part * scene.laws.rows[c.law[k]].crack_opening;
+  open_to(c, {c.gap_a[k] + least, c.gap_b[k] + least}, k);
+}
+
 /// The face has lost its strength, by tension or by shear, whichever has done more of it.
 void break_face(FaceSet& c, const LawTable& laws, std::size_t k) {
   const Law& law = laws.rows[c.law[k]];
@@ -148,6 +157,7 @@ void soften_face(FaceSet& c, const FaceScene& scene, std::size_t k) {
   if (damage.a >= 1.0 && damage.b >= 1.0) {
     break_face(c, scene.laws, k);
   } else {
+    keep_in_touch(c, scene, k);
     put_in_force_as_left(c, scene.laws, k);
   }
   account_failure_energy(c, stored - normal_energy(c, scene.blocks, scene.pose, k), k);

@@ -50,7 +50,7 @@ std::optional<Fault> without_limit(const Model& model, const Fos& fos) {
   }
   for (const JointLaw& law : model.joints) {
     if (!law.fracture_energy) continue;
-    return fault_at(model, law.where, law.where.key + ".fracture_energy",
+    return fault_at(model, law.where, (law.where.key + ".fracture_energy").c_str(),
                     "limit analysis is of a strength that does not fall as cracks open",
                     "run edda fos, or leave out the fracture energies");
   }
