@@ -5,6 +5,7 @@
 #include "contacts/activity.hpp"
 #include "contacts/face_bonds.hpp"
 #include "contacts/face_energy.hpp"
+#include "contacts/face_softening.hpp"
 #include "contacts/face_step.hpp"
 
 namespace edda {
@@ -102,7 +103,9 @@ void decide_face(FaceSet& c, const FaceScene& scene, double step, const FaceFiel
   if (now.undecided && decide_activity(c, b, pose, {before.energy > 0.0, before.gate > 0.0}, k))
     now = evaluate_face(c, scene, step, before, k);
   if (!c.bonded(k) && !c.carries_tension(k)) return;
-  if (!bond_fails(c, b, now.state, k)) return;
+  const bool softens = c.is(FaceFlag::softens, k);
+  if (!softens && !bond_fails(c, b, now.state, k)) return;
+  if (may_soften(c, scene.laws, k)) return soften_face(c, scene, k);
   const double stored = normal_energy(c, b, pose, k);
   break_bond(c, b, scene.laws, now.state, k);
   account_failure_energy(c, stored - normal_energy(c, b, pose, k), k);
@@ -110,7 +113,11 @@ void decide_face(FaceSet& c, const FaceScene& scene, double step, const FaceFiel
 
 void count_failures(FaceSet& c) {
   c.for_failures([&](std::size_t k) {
-    if (c.is(FaceFlag::bond_breaks, k)) ++c.broken;
+    if (c.is(FaceFlag::bond_breaks, k)) {
+      ++c.broken;
+      if (c.is(FaceFlag::broken_in_tension, k)) ++c.cracks_tension;
+      if (c.is(FaceFlag::broken_in_shear, k)) ++c.cracks_shear;
+    }
     c.set(FaceFlag::fails, k, false);
     c.set(FaceFlag::bond_breaks, k, false);
   });

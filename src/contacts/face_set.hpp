@@ -30,6 +30,8 @@ struct FaceProperties {
   C slip_so_far;    ///< accumulated slip, m, for slip-dependent laws; infinite: has its residual
                     ///< strength
   C dilation_left;  ///< m by which dilation has yet to open the joint
+  C parted_a, parted_b;  ///< largest opening of its crack so far, m (contacts/face_softening.hpp)
+  C gap_a, gap_b;        ///< present opening of its crack, m: part of the locked closure
   C friction_work, damping_work, fracture_work, transfer;  ///< accumulated, J
 };
 
@@ -58,6 +60,10 @@ inline constexpr FaceProperty<C> face_property_list[] = {
     {"locked_closure_b", "m", &FaceProperties<C>::locked_closure_b, true},
     {"slip_so_far", "m", &FaceProperties<C>::slip_so_far, true},
     {"dilation_left", "m", &FaceProperties<C>::dilation_left, true},
+    {"parted_a", "m", &FaceProperties<C>::parted_a, true},
+    {"parted_b", "m", &FaceProperties<C>::parted_b, true},
+    {"gap_a", "m", &FaceProperties<C>::gap_a, true},
+    {"gap_b", "m", &FaceProperties<C>::gap_b, true},
     {"friction_work", "J", &FaceProperties<C>::friction_work, true},
     {"damping_work", "J", &FaceProperties<C>::damping_work, true},
     {"fracture_work", "J", &FaceProperties<C>::fracture_work, true},
@@ -80,10 +86,15 @@ enum class FaceFlag : std::uint16_t {
   bond_breaks = 1u << 8,  ///< that of its bond
   // Since the start.
   opened = 1u << 9,  ///< after having been closed, or its bond or tension has failed
-  slipped = 1u << 10
+  slipped = 1u << 10,
+  // Its crack, of a law that softens (contacts/face_softening.hpp).
+  softens = 1u << 11,  ///< has exceeded its strength, and is decided in every step
+  broken_in_tension = 1u << 12,
+  broken_in_shear = 1u << 13
 };
 
-inline constexpr std::uint16_t all_face_flags = 2u * static_cast<unsigned>(FaceFlag::slipped) - 1;
+inline constexpr std::uint16_t all_face_flags =
+    2u * static_cast<unsigned>(FaceFlag::broken_in_shear) - 1;
 
 /// Bond of a face, which as a whole has its peak strength until it breaks. A face that tension has
 /// cracked from one end while the other is pressed keeps the peak strength in shear, and has the
@@ -195,6 +206,7 @@ struct FaceSet : RowTable<FaceProperties<RowColumn>, face_property_list<RowColum
   double bond_strength = 1.0;  ///< bonds have so many times their cohesion and tensile strength
                                ///< while loads come on (Relaxation::Hold)
   std::uint64_t broken = 0;    ///< number of bonded faces that have failed so far
+  std::uint64_t cracks_tension = 0, cracks_shear = 0;  ///< of these, by their fracture energy
 
   /// Calls visit(k, of_edge) for the faces of the edges [first, end), per edge in the order of the
   /// edges on the other side; of_edge: the edge is `edge` of face k, not `facing`.

@@ -261,6 +261,7 @@ struct FaceTiles {
   }
   /// Of those found in the step:
   bool has_found(unsigned of, std::size_t k) const { return bit_of(found[now], of, k); }
+  bool found_before(unsigned of, std::size_t k) const { return bit_of(found[1 - now], of, k); }
   /// Of any step up to n - 1 (FaceSumColumns):
   bool has_ever(unsigned of, std::size_t k) const { return bit_of(ever, of, k); }
   /// Whether anything is remembered of the faces of a chunk (TileNumbers).

@@ -106,6 +106,8 @@ void move_totals(FaceSet& next, FaceSet& old) {
   next.removed_fracture = old.removed_fracture;
   next.removed_transfer = old.removed_transfer;
   next.broken = old.broken;
+  next.cracks_tension = old.cracks_tension;
+  next.cracks_shear = old.cracks_shear;
   next.of_laws = old.of_laws;
   next.gluing = old.gluing;
   next.bond_strength = old.bond_strength;

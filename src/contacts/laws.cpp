@@ -26,6 +26,14 @@ void add_slip(const JointLaw& j, Law& law) {
   law.residual_angle = j.residual_angle.value_or(0.0);
 }
 
+/// Adds its fracture energies, by the opening and the slip at which they are spent.
+void add_fracture(const JointLaw& j, Law& law) {
+  law.softens = j.fracture_energy && j.shear_fracture_energy;
+  if (!law.softens) return;
+  law.crack_opening = 2.0 * *j.fracture_energy / j.peak.tensile_strength;
+  law.crack_slip = 2.0 * *j.shear_fracture_energy / j.peak.cohesion;
+}
+
 void add_pair(std::vector<LawTable::Pair>& pairs, const Index (&between)[2], Index law) {
   if (between[0] == none || law == none) return;
   pairs.push_back({std::minmax(between[0], between[1]), static_cast<std::uint16_t>(law)});
@@ -53,6 +61,7 @@ LawTable build_laws(const Model& model) {
                           j.residual.tensile_strength, j.kn.value_or(0.0),
                           j.ks.value_or(0.4 * j.kn.value_or(0.0)), j.type == LawType::glued});
     add_slip(j, table.rows.back());
+    add_fracture(j, table.rows.back());
     if (j.dashpots) {
       Law& law = table.rows.back();
       law.dashpots = table.any_dashpots = true;
@@ -62,6 +71,7 @@ LawTable build_laws(const Model& model) {
       law.rebound = j.dashpots->rebound;
     }
     table.any_changes = table.any_changes || table.rows.back().changes;
+    table.any_softens = table.any_softens || table.rows.back().softens;
   }
   std::vector<std::uint16_t> order(table.rows.size());
   std::iota(order.begin(), order.end(), std::uint16_t{0});

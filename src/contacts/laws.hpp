@@ -28,6 +28,9 @@ struct Law {
   double slip_distance = 0.0;                         ///< m; infinite: dilation has no end
   double dilation = 0.0;                              ///< tangent of the dilation angle
   double jrc = 0.0, jcs = 0.0, residual_angle = 0.0;  ///< -, Pa, degrees
+  // Fracture energy (contacts/face_softening.hpp).
+  bool softens = false;
+  double crack_opening = 0.0, crack_slip = 0.0;  ///< w_c and s_c, m
 };
 
 /// Whether a joint of this law opens as it slips. The opening so far is part of the locked closure
@@ -56,6 +59,7 @@ struct LawTable {
   double rock_divided_by() const { return divided_by.back(); }
   bool any_changes = false;   ///< a row has `changes`
   bool any_dashpots = false;  ///< a row has `dashpots`
+  bool any_softens = false;   ///< a row has `softens`
   ContactSprings penalty{};   ///< of joints without kn
   double thickness = 1.0;
   Index default_law = none;

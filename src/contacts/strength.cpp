@@ -6,6 +6,8 @@
 #include <limits>
 #include <numbers>
 
+#include "contacts/face_softening.hpp"
+
 namespace edda {
 namespace {
 
@@ -32,6 +34,13 @@ StrengthInForce rough(const Law& law, double slip, double length, double sigma, 
   const double angle = barton_angle(law, left, sigma);
   return {std::tan(radians(angle)) / divided_by, 0.0, 0.0,
           std::tan(radians(0.5 * (angle - law.residual_angle)))};
+}
+
+/// Of a face that has exceeded its strength.
+StrengthInForce softened(const Law& law, const StrengthInputs& in) {
+  const FaceEnds damage = damage_of(law, in.parted, in.slip);
+  const double left = 1.0 - 0.5 * (damage.a + damage.b);
+  return {law.peak_friction, left * law.peak_cohesion, left * law.peak_tension, 0.0};
 }
 
 StrengthInForce coulomb(const Law& law, BondState bond, double slip) {
@@ -65,6 +74,8 @@ StrengthInForce strength_of(const LawTable& laws, std::uint16_t row, BondState b
       const double sigma = std::max(in.normal, 0.0) / (in.length * laws.thickness);
       return rough(law, in.slip, in.length, sigma, laws.divided_by[row]);
     }
+    if (law.softens && bond == BondState::unbonded && std::isfinite(in.slip))
+      return softened(law, in);
     return coulomb(law, bond, in.slip);
   };
   StrengthInForce s = of_law();
@@ -84,7 +95,8 @@ void put_in_force(FaceSet& c, const FaceStates& states, const LawTable& laws) {
     const FaceFields& m = states.before[k];
     // Of faces that stored nothing length and forces may be those of an earlier step.
     const double length = m.energy > 0.0 ? m.length : 0.0;
-    const StrengthInputs in{c.slip_so_far[k], length, m.normal_a + m.normal_b};
+    const StrengthInputs in{
+        c.slip_so_far[k], length, m.normal_a + m.normal_b, {c.parted_a[k], c.parted_b[k]}};
     put_in_force(c, strength_of(laws, c.law[k], c.bond(k), in), k);
   }
 }
@@ -101,7 +113,8 @@ void set_residual_strength(FaceSet& c, const LawTable& laws, std::size_t k) {
 }
 
 double first_slip(const Law& law) {
-  return law.type == LawType::slip_weakening ? std::numeric_limits<double>::infinity() : 0.0;
+  const bool falls = law.type == LawType::slip_weakening || law.softens;
+  return falls ? std::numeric_limits<double>::infinity() : 0.0;
 }
 
 double roughness_left(double slip, double peak) {

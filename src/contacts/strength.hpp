@@ -8,6 +8,7 @@
 //  Barton-Bandis (Barton and Choubey 1977; Barton, Bandis and Bakhtar 1985):
 //    tan(phi_r + JRC(u) log10(JCS/sigma)),  psi = JRC(u) log10(JCS/sigma)/2 degrees,
 //    JRC(u) its peak value until u = u_p = L/500 (JRC/L)^0.33 and less beyond it
+//  fracture energy: cohesion and tensile strength times 1 - D (contacts/face_softening.hpp)
 //  strength reduction: cohesion, the tangent of the friction angle and tensile strength are divided
 //    by a factor, peak and residual alike (Zienkiewicz, Humpheson and Lewis 1975; Matsui and San
 //    1992)
@@ -30,6 +31,7 @@ struct StrengthInputs {
   double slip = 0.0;    ///< u, m
   double length = 0.0;  ///< L, m; 0: it carries nothing
   double normal = 0.0;  ///< N
+  FaceEnds parted{};    ///< w, m, of laws that soften
 };
 struct StrengthInForce {
   double friction;           ///< tan(phi)
@@ -50,7 +52,8 @@ void set_bond(FaceSet& faces, const LawTable& laws, BondState bond, double slip,
 void set_residual_strength(FaceSet& faces, const LawTable& laws, std::size_t k);
 
 /// Initial value of a face's accumulated slip: 0, or for slip weakening infinite (residual
-/// strength), which bond_faces() sets to 0 for faces that touch at the start.
+/// strength), which bond_faces() sets to 0 for faces that touch at the start; of laws that soften,
+/// too.
 double first_slip(const Law& law);
 
 /// Fraction of JRC that remains after the slip u, with the peak strength at the slip `peak` (m).

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 
 #include "base/parallel.hpp"
 #include "contacts/evaluate_face.hpp"
 #include "contacts/face_bonds.hpp"
+#include "contacts/face_softening.hpp"
 #include "contacts/joint_laws.hpp"
 #include "contacts/tile_loading.hpp"
 #include "contacts/tile_rows.hpp"
@@ -44,6 +46,27 @@ void load_changed(FaceTiles& t, const FaceSet& c, const Pose& pose, std::size_t 
   }
 }
 
+/// Weakens the faces whose cracks have slipped in the last step.
+void soften_slipping(FaceSet& c, FaceTiles& t, const BlockSet& b, const Pose& pose,
+                     const LawTable& laws) {
+  std::vector<std::uint8_t> changed(c.size(), 0);
+  std::atomic<bool> any = false;
+  parallel_for(
+      c.size(),
+      [&](std::size_t k) {
+        if (!c.is(FaceFlag::softens, k) || !t.found_before(lane_bits::slides, k)) return;
+        recall_work(c, t, k);
+        soften_by_slip(c, b, pose, laws, remembered(t, k), k);
+        changed[k] = 1;
+        any.store(true, std::memory_order_relaxed);
+      },
+      2);
+  if (!any) return;
+  std::vector<char> no_scratch;
+  parallel_tasks(t.tiles.size(), 20 * c.size(), no_scratch,
+                 [&](std::size_t tile, char&) { load_changed(t, c, pose, tile, changed); });
+}
+
 }  // namespace
 
 void update_joint_laws(FaceSet& c, FaceTiles& t, const BlockSet& b, const Pose& pose,
@@ -77,6 +100,7 @@ void begin_step(FaceSet& c, FaceTiles& t, const BlockSet& b, const Pose& pose,
   if (c.gluing) glue_pressed(c, t, b, pose.x1, pose.y1);
   next_step(c, t);
   if (laws.any_changes) update_joint_laws(c, t, b, pose, laws);
+  if (laws.any_softens) soften_slipping(c, t, b, pose, laws);
 }
 
 void glue_pressed(FaceSet& c, FaceTiles& t, const BlockSet& b, const std::vector<double>& x,

@@ -12,6 +12,9 @@
 namespace edda {
 namespace {
 
+/// N per m, tensile strength of faces that soften: they are decided in every step.
+constexpr double always_exceeded = -1e200;
+
 /// The constants of one face.
 EdgeConstants<double> edge_constants(const FaceSet& c, const BlockSet& b, const FacePair& p,
                                      std::size_t k) {
@@ -46,7 +49,7 @@ StrengthConstants<double> strength_constants(const FaceSet& c, std::size_t k) {
           law.zeta,
           law.shear_zeta,
           law.rebound,
-          c.tension[k],
+          c.is(FaceFlag::softens, k) ? always_exceeded : c.tension[k],
           one(c.glued(k))};
 }
 /// Of a lane without a face: no length and no stiffness; `passing` is divided by.
@@ -203,6 +206,7 @@ void load_chunk_constants(FaceTiles& t, const FaceSet& c, const BlockSet& b, std
     const FacePair pair = face_pair(c, b, k);
     put(edges, lane, edge_constants(c, b, pair, k));
     put(strengths, lane, strength_constants(c, k));
+    if (c.is(FaceFlag::softens, k)) t.tiles[tile].takes_then = true;
   }
   const auto of = columns_from<StrengthConstants<const double*>>(&strengths[0]);
   bool bonds = false;

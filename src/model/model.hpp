@@ -113,6 +113,8 @@ struct JointLaw {
   Strength residual;  ///< after failure, and of every contact not closed at the start
   std::optional<double> dilation_angle;  ///< degrees; coulomb, slip-weakening
   std::optional<double> slip_distance;   ///< m: from peak to residual; coulomb: of dilation
+  /// J/m2, of tension and of shear; coulomb
+  std::optional<double> fracture_energy, shear_fracture_energy;
   std::optional<double> jrc, jcs;  ///< roughness (-), strength of the walls (Pa); barton-bandis
   std::optional<double> residual_angle;  ///< degrees; barton-bandis
   std::optional<double> kn;              ///< Pa/m; without it a penalty (contact_springs.hpp)

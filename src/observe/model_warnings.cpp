@@ -13,6 +13,7 @@
 #include "model/stage_names.hpp"
 #include "observe/cannot_rest.hpp"
 #include "observe/damping_report.hpp"
+#include "observe/fracture_report.hpp"
 #include "observe/initial_stress_report.hpp"
 #include "observe/locked_toes.hpp"
 #include "observe/locking.hpp"
@@ -380,6 +381,7 @@ std::vector<std::string> model_warnings(const Simulation& sim) {
   warn_of_locking(sim, warnings);
   warn_of_stiff_restitution(sim, warnings);
   warn_of_springs(sim, warnings);
+  warn_of_coarse_cracks(sim, warnings);
   warn_of_slivers(sim, warnings);
   warn_of_kept_slivers(sim, warnings);
   warn_of_overlaps(sim, warnings);

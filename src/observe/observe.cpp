@@ -6,6 +6,7 @@
 
 #include "base/parallel.hpp"
 #include "contacts/face_reading.hpp"
+#include "contacts/face_softening.hpp"
 #include "forces/elastic.hpp"
 #include "observe/overstress.hpp"
 #include "step/contact_pairs.hpp"
@@ -78,6 +79,19 @@ Vec2 displacement_of_corner(const BlockSet& b, const State& s, std::size_t v) {
   return affine + deviation_at(b, s.position, v) - deviation_at(b, s.reference, v);
 }
 
+/// What a joint with fracture energy has lost of its strength.
+void add_crack(ContactRecord& r, const Simulation& sim, std::size_t k) {
+  const FaceSet& f = sim.motion.contacts;
+  if (f.is(FaceFlag::softens, k)) {
+    const FaceEnds damage =
+        damage_of(sim.motion.laws.rows[f.law[k]], {f.parted_a[k], f.parted_b[k]}, f.slip_so_far[k]);
+    r.damage = 0.5 * (damage.a + damage.b);
+  } else if (f.is(FaceFlag::broken_in_tension, k) || f.is(FaceFlag::broken_in_shear, k)) {
+    r.damage = 1.0;
+    r.crack = f.is(FaceFlag::broken_in_shear, k) ? CrackMode::shear : CrackMode::tension;
+  }
+}
+
 ContactRecord face_record(const Simulation& sim, const FaceRow& row) {
   const FaceSet& f = row.of;
   const std::size_t k = row.k;
@@ -102,6 +116,7 @@ ContactRecord face_record(const Simulation& sim, const FaceRow& row) {
   r.slip = slip_since_start(b, row);
   r.ever_slipped = row.slipped;
   r.ever_opened = row.opened;
+  add_crack(r, sim, k);
   if (!is_closed(row)) return r;
   r.state = f.bonded(k)   ? ContactState::bonded
             : slides(row) ? ContactState::slide

@@ -72,6 +72,12 @@ constexpr std::array joints{
     C{"table", "text",
       "Table of the model from which the line of the joint comes, as joint_set.bedding or "
       "trace.0; empty for blocks that are given as such."},
+    C{"damage", "1",
+      "Part of its tensile strength and cohesion that a joint with fracture energy has lost, the "
+      "mean of both ends; 0 of others."},
+    C{"broken_by", "text",
+      "What has spent most of the fracture energy of a joint that is broken: tension or shear; "
+      "empty of others."},
 };
 
 constexpr std::array fos{

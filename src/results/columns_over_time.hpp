@@ -95,6 +95,10 @@ constexpr std::array history{
       "Mean resultant force of the free blocks over the mean normal force at the ends of the "
       "contacts that carry load, or over the mean of weight and loads where none does."},
     transfer,
+    C{"cracks_tension", "1",
+      "Number of joints so far that have spent their fracture energy, mostly by opening."},
+    C{"cracks_shear", "1",
+      "Number of joints so far that have spent their fracture energy, mostly by slip."},
 };
 
 constexpr std::array reactions{

@@ -30,6 +30,9 @@ struct BlockRecord {
 /// Numbers of the states in the frames.
 enum class ContactState : std::int32_t { open = 0, stick = 1, slide = 2, bonded = 3 };
 
+/// What has broken a joint with fracture energy.
+enum class CrackMode : std::int32_t { unbroken = 0, tension = 1, shear = 2 };
+
 /// A face: an edge of block i against one of block j. Forces are of the model's thickness.
 struct ContactRecord {
   std::uint32_t block_i = 0, block_j = 0;
@@ -51,6 +54,8 @@ struct ContactRecord {
   double normal_stress_a = 0.0,
          normal_stress_b = 0.0;  ///< at the ends: linear over the part that carries, 0 elsewhere
   double shear_stress = 0.0;     ///< Pa: the mean over the overlap, signed as shear_force
+  double damage = 0.0;           ///< part of its strength that a joint with fracture energy lost
+  CrackMode crack = CrackMode::unbroken;
 };
 
 /// A zone of a meshed block.

@@ -21,6 +21,7 @@ Trouble write_blocks_csv(const std::string& path, std::span<const BlockRecord> b
 
 Trouble write_joints_csv(const std::string& path, std::span<const ContactRecord> contacts) {
   constexpr std::array state_names{"open", "stick", "slide", "bonded"};
+  constexpr std::array crack_names{"", "tension", "shear"};
   Csv csv = begin_table(ResultFile::joints);
   return write_rows(path, csv, contacts.size(), [&](std::size_t k) {
     const ContactRecord& c = contacts[k];
@@ -30,7 +31,8 @@ Trouble write_joints_csv(const std::string& path, std::span<const ContactRecord>
     csv.add(int{c.ever_slipped}).add(int{c.ever_opened}).add(c.mobilised);
     csv.add(c.length).add(c.closed_length).add(c.a.x).add(c.a.y).add(c.b.x).add(c.b.y);
     csv.add(c.normal_stress).add(c.normal_stress_a).add(c.normal_stress_b);
-    csv.add(c.shear_stress).add(c.table).end();
+    csv.add(c.shear_stress).add(c.table).add(c.damage);
+    csv.add(crack_names[static_cast<std::size_t>(c.crack)]).end();
   });
 }
 

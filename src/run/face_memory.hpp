@@ -61,6 +61,8 @@ void list_faces(Archive& a, FaceSet& c, FaceStates& states) {
   a("faces.bond_strength", c.bond_strength);
   a("faces.dashpots", c.dashpots);
   a("faces.broken", c.broken);
+  a("faces.cracks_tension", c.cracks_tension);
+  a("faces.cracks_shear", c.cracks_shear);
   a("faces.removed_friction", c.removed_friction);
   a("faces.removed_damping", c.removed_damping);
   a("faces.removed_fracture", c.removed_fracture);

@@ -120,6 +120,7 @@ Trouble Recorder::row(const Simulation& sim, const Instant& at, const Gauges& ga
                          l.fracture, l.external, l.step_change, l.error, unbalanced, l.transfer}) {
     csv.add(v);
   }
+  csv.add(sim.motion.contacts.cracks_tension).add(sim.motion.contacts.cracks_shear);
   if (!sim.scene->model.boundaries.empty()) {
     if (auto t = reactions_.add(reactions_row(sim, at))) return t;
   }

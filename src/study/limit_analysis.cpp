@@ -48,6 +48,12 @@ std::optional<Fault> without_limit(const Model& model, const Fos& fos) {
                     "\"points\" is the paper's contact model, without joints that have a length",
                     "use contact.model = \"faces\"");
   }
+  for (const JointLaw& law : model.joints) {
+    if (!law.fracture_energy) continue;
+    return fault_at(model, law.where, (law.where.key + ".fracture_energy").c_str(),
+                    "limit analysis is of a strength that does not fall as cracks open",
+                    "run edda fos, or leave out the fracture energies");
+  }
   const bool has_ucs =
       std::any_of(model.materials.begin(), model.materials.end(),
                   [](const auto& m) { return m.strength && m.strength->ucs > 0.0; });

@@ -172,6 +172,9 @@ TEST(BadModel, WhatTheImplicitMethodCannotDo) {
         {"[[shaking]]\nacceleration = { amplitude = 1, frequency = 2 }\n", "shaking.0.apply"},
         {"[joints.a]\nfriction_angle = 30\ndilation_angle = 3\n[contact]\njoint = \"rough\"\n",
          "joints.a"},
+        {"[joints.a]\nfriction_angle = 30\ncohesion = 1e6\ntensile_strength = 1e5\n"
+         "fracture_energy = 10\nshear_fracture_energy = 99\n[contact]\njoint = \"rough\"\n",
+         "joints.a.fracture_energy"},
         {"[[bolt]]\nfrom = [15, 1]\nto = [15, 3]\ndiameter = 0.02\ntype = \"end\"\n", "bolt.0"}}) {
     const std::string whole = testing::base_with("duration = 0.1\n", "duration = 0.1\n" + solver);
     const Result<Model> result = read_model_text(whole + text, "m.toml", {});
@@ -213,6 +216,35 @@ TEST(BadModel, JointLaws) {
            Bad{"[joints.a]\ntype = \"barton-bandis\"\njrc = 21\njcs = 1e8\nresidual_angle = 28\n" +
                    end,
                44, "joints.a.jrc", "at most 20"},
+       }) {
+    expect_fault(bad);
+  }
+}
+
+TEST(BadModel, FractureEnergy) {
+  const std::string rock =
+      "[joints.a]\nfriction_angle = 30\ncohesion = 1e6\ntensile_strength = 1e5\n";
+  const std::string end = "[contact]\njoint = \"rough\"\n",
+                    both = "fracture_energy = 10\nshear_fracture_energy = 100\n";
+  for (const Bad& bad : {
+           Bad{rock + "fracture_energy = 10\n" + end, 46, "joints.a.fracture_energy",
+               "give shear_fracture_energy, too"},
+           Bad{rock + "shear_fracture_energy = 10\n" + end, 46, "joints.a.shear_fracture_energy",
+               "give fracture_energy, too"},
+           Bad{rock + "fracture_energy = 0\nshear_fracture_energy = 1\n" + end, 46,
+               "joints.a.fracture_energy", "above 0"},
+           Bad{"[joints.a]\nfriction_angle = 30\ncohesion = 1e6\n" + both + end, 45,
+               "joints.a.fracture_energy", "tensile_strength and cohesion above 0"},
+           Bad{"[joints.a]\nfriction_angle = 30\ntensile_strength = 1e6\n" + both + end, 45,
+               "joints.a.fracture_energy", "tensile_strength and cohesion above 0"},
+           Bad{rock + both + "residual = { cohesion = 5 }\n" + end, 46, "joints.a.fracture_energy",
+               "another residual"},
+           Bad{rock + both + "residual = { friction_angle = 25 }\n" + end, 46,
+               "joints.a.fracture_energy", "another residual"},
+           Bad{rock + both + "dilation_angle = 5\n" + end, 46, "joints.a.fracture_energy",
+               "dilation_angle"},
+           Bad{"[joints.a]\ntype = \"glued\"\n" + both + end, 44, "joints.a.fracture_energy",
+               "does not apply"},
        }) {
     expect_fault(bad);
   }

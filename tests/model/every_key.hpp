@@ -38,6 +38,12 @@ friction_angle = 35
 residual = { friction_angle = 25 }
 dilation_angle = 4
 slip_distance = "5 mm"
+[joints.tough]
+friction_angle = 35
+cohesion = "10 MPa"
+tensile_strength = "4 MPa"
+fracture_energy = "40 J/m2"
+shear_fracture_energy = 400
 [joints.barton]
 type = "barton-bandis"
 jrc = 9

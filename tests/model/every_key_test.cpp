@@ -62,7 +62,10 @@ void expect_every_key(const Model& m) {
   EXPECT_EQ(weak.dilation_angle, 4.0);
   EXPECT_EQ(weak.slip_distance, 0.005);
   EXPECT_EQ(weak.residual.friction_angle, 25.0);
-  const JointLaw& barton = m.joints[3];
+  const JointLaw& tough = m.joints[3];
+  EXPECT_EQ(tough.fracture_energy, 40.0);
+  EXPECT_EQ(tough.shear_fracture_energy, 400.0);
+  const JointLaw& barton = m.joints[4];
   EXPECT_EQ(barton.type, LawType::barton_bandis);
   EXPECT_EQ(barton.jrc, 9.0);
   EXPECT_EQ(barton.jcs, 80e6);

@@ -19,6 +19,8 @@ void check_law_keys(const Value* node, const JointLaw& law, Reading& reading) {
   const LawKey keys[] = {{"friction_angle", {C, S, B, LawType::glued}, {C, S}},
                          {"dilation_angle", {C, S}, {}},
                          {"slip_distance", {C, S}, {S}},
+                         {"fracture_energy", {C}, {}},
+                         {"shear_fracture_energy", {C}, {}},
                          {"jrc", {B}, {B}},
                          {"jcs", {B}, {B}},
                          {"residual_angle", {B}, {B}}};
@@ -51,6 +53,34 @@ void check_law_keys(const Value* node, const JointLaw& law, Reading& reading) {
             "is not below the friction angle of {:.6g} degrees: the joint would create energy",
             least),
         "give less");
+  }
+}
+
+/// Fracture energy needs the strength that it lets fall, to friction alone.
+void check_fracture(const Value* node, const JointLaw& law, Reading& reading) {
+  if (law.type != LawType::coulomb || (!law.fracture_energy && !law.shear_fracture_energy)) return;
+  const bool tension = law.fracture_energy.has_value();
+  const char* const key = tension ? "fracture_energy" : "shear_fracture_energy";
+  const auto refuse = [&](std::string problem, std::string remedy) {
+    add_fault(reading, place_of(node, key), law.where.key + "." + key, std::move(problem),
+              std::move(remedy));
+  };
+  const Strength &peak = law.peak, &after = law.residual;
+  if (!law.fracture_energy || !law.shear_fracture_energy) {
+    refuse("is given alone: a crack may open and slip, and needs the energies of both",
+           std::string("give ") + (tension ? "shear_fracture_energy" : "fracture_energy") +
+               ", too; in rock that of shear is some 10 times that of tension");
+  } else if (!(peak.tensile_strength > 0.0) || !(peak.cohesion > 0.0)) {
+    refuse("needs a strength that falls", "give tensile_strength and cohesion above 0");
+  } else if (after.cohesion > 0.0 || after.tensile_strength > 0.0 ||
+             after.friction_angle != peak.friction_angle) {
+    refuse("lets the strength fall to that of friction, and does not go with another residual one",
+           "leave out residual, or the fracture energies");
+  } else if (law.dilation_angle) {
+    refuse("does not go with a dilation_angle", "leave out one of them");
+  } else if (reading.model.solver.method == Method::dda) {
+    refuse("is not available with method = \"dda\"",
+           "use method = \"edda\", or leave out the fracture energies");
   }
 }
 
@@ -99,7 +129,10 @@ void complete_strength(const Value* node, JointLaw& law, Reading& reading) {
   } else if (!given(find(node, "residual"), "friction_angle")) {
     law.residual.friction_angle = law.peak.friction_angle;
   }
-  if (known) check_law_keys(node, law, reading);
+  if (known) {
+    check_law_keys(node, law, reading);
+    check_fracture(node, law, reading);
+  }
   const bool more = law.type == LawType::slip_weakening || law.type == LawType::barton_bandis ||
                     law.dilation_angle;
   if (more && reading.model.solver.method == Method::dda) {

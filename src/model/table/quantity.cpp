@@ -176,6 +176,7 @@ const DimensionInfo& info(Dimension dimension) {
       DimensionInfo{"an area", "m2", "0.01 or \"1 dm2\"", 2, 0, 0, 0, false},
       DimensionInfo{"a length per area", "1/m", "1.2 or \"1.2 1/m\"", -1, 0, 0, 0, false},
       DimensionInfo{"a stress per length", "Pa/m", "27e3 or \"27 kPa/m\"", -2, 1, -2, 0, false},
+      DimensionInfo{"an energy per area", "J/m2", "40.0 or \"40 J/m2\"", 0, 1, -2, 0, false},
   };
   return table[static_cast<std::size_t>(dimension)];
 }

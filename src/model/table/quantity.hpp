@@ -28,6 +28,7 @@ enum class Dimension {
   area,
   per_length,       ///< 1/m
   stress_gradient,  ///< Pa/m
+  surface_energy,   ///< J/m2
 };
 
 struct DimensionInfo {
