@@ -15,6 +15,16 @@ namespace {
 using testing::every_key;
 using testing::read_or_fail;
 
+/// What is recorded of points and regions.
+void expect_every_gauge_key(const Model& m) {
+  ASSERT_EQ(m.measurements.size(), 1U);
+  EXPECT_EQ(m.measurements[0].name, "roof");
+  EXPECT_EQ(m.measurements[0].polygon, (Ring{{11, 5}, {19, 5}, {15, 8}}));
+  ASSERT_EQ(m.convergences.size(), 1U);
+  EXPECT_EQ(m.convergences[0].name, "H1");
+  EXPECT_EQ(m.convergences[0].between, (Ring{{11, 5}, {19, 5}}));
+}
+
 void expect_every_key(const Model& m) {
   EXPECT_EQ(m.title, "Every \"key\"\t\\ \u00e9");
   EXPECT_EQ(m.gravity, (Vec2{1, -9.8}));
@@ -38,12 +48,7 @@ void expect_every_key(const Model& m) {
   EXPECT_EQ(m.initial_stress->gradient, (Triple{1e4, 27e3, 2.0}));
   EXPECT_EQ(m.initial_stress->k0_out, 0.75);
   EXPECT_FALSE(m.initial_stress->k0);
-  ASSERT_EQ(m.measurements.size(), 1U);
-  EXPECT_EQ(m.measurements[0].name, "roof");
-  EXPECT_EQ(m.measurements[0].polygon, (Ring{{11, 5}, {19, 5}, {15, 8}}));
-  ASSERT_EQ(m.convergences.size(), 1U);
-  EXPECT_EQ(m.convergences[0].name, "H1");
-  EXPECT_EQ(m.convergences[0].between, (Ring{{11, 5}, {19, 5}}));
+  expect_every_gauge_key(m);
   ASSERT_EQ(m.joints.size(), 4U);
   EXPECT_EQ(m.joints[0].type, LawType::glued);
   const JointLaw& law = m.joints[1];
