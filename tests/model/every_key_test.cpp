@@ -41,7 +41,7 @@ void expect_every_key(const Model& m) {
   ASSERT_EQ(m.convergences.size(), 1U);
   EXPECT_EQ(m.convergences[0].name, "H1");
   EXPECT_EQ(m.convergences[0].between, (Ring{{11, 5}, {19, 5}}));
-  ASSERT_EQ(m.joints.size(), 4U);
+  ASSERT_EQ(m.joints.size(), 5U);
   EXPECT_EQ(m.joints[0].type, LawType::glued);
   const JointLaw& law = m.joints[1];
   EXPECT_EQ(law.name, "rough");
