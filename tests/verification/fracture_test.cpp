@@ -21,10 +21,10 @@ std::string plate(const std::string& left, const std::string& right, double dura
          "[joints.j]\nfriction_angle = 30\ncohesion = 6e6\ntensile_strength = 2e6\n"
          "fracture_energy = 60\nshear_fracture_energy = 900\n[contact]\njoint = 'j'\n"
          "[[block]]\npolygon = " +
-         rectangle(0, 0, 0.2, height) + "\n[[block]]\npolygon = " +
-         rectangle(0.2, 0, 0.4, height) + "\n[[boundary]]\nsides = ['left']\n" + left +
-         "\n[[boundary]]\nsides = ['right']\n" + right + "\n[solver]\nduration = " +
-         number(duration) + "\n[output]\nhistory_every = " + number(duration / 50.0) + "\n";
+         rectangle(0, 0, 0.2, height) + "\n[[block]]\npolygon = " + rectangle(0.2, 0, 0.4, height) +
+         "\n[[boundary]]\nsides = ['left']\n" + left + "\n[[boundary]]\nsides = ['right']\n" +
+         right + "\n[solver]\nduration = " + number(duration) +
+         "\n[output]\nhistory_every = " + number(duration / 50.0) + "\n";
 }
 
 struct Seen {
