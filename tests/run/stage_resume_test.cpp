@@ -254,8 +254,8 @@ TEST(StageResume, HasTheSameNumbersWhereverCracksAreInterrupted) {
   std::string model = hit_wall;
   const std::string cohesion = "cohesion = 1e3\n";
   model.replace(model.find(cohesion), cohesion.size(),
-                "cohesion = 2e5\ntensile_strength = 1e5\nfracture_energy = 4\n"
-                "shear_fracture_energy = 40\n");
+                "cohesion = 4e4\ntensile_strength = 1e4\nfracture_energy = 0.4\n"
+                "shear_fracture_energy = 4\n");
   EXPECT_GT(expect_same_numbers(model), 0u);
 }
 
