@@ -20,6 +20,7 @@ constexpr double least_pull = 1e-6;
 struct EndLaw {
   double parted;   ///< w, m
   double broken;   ///< m: opening from which D = 1
+  double whole;    ///< w_c, m
   double left;     ///< (1 - D) T L/2 at w, N
   double falls;    ///< T L/(2 w_c), N/m
   double holding;  ///< least_pull of T L/2, N
@@ -36,6 +37,12 @@ double opening_under(const EndLaw& e, double normal, double gap, double spring) 
   const double until = spring > e.falls ? e.parted + (pull - e.left) / (spring - e.falls)
                                         : std::numeric_limits<double>::infinity();
   return until < e.broken ? until : at_ease;
+}
+/// The same, unless it is there but for rounding.
+double next_opening(const EndLaw& e, double normal, double gap, double spring) {
+  constexpr double rounding = 1e-12;  // of w_c
+  const double next = opening_under(e, normal, gap, spring);
+  return std::abs(next - gap) <= rounding * e.whole ? gap : next;
 }
 
 /// Normal forces at the ends per closure of them: own that of the end itself, N/m.
@@ -57,11 +64,9 @@ FaceEnds openings_under(const std::array<EndLaw, 2>& law, FaceEnds normal, FaceE
     const auto under = [&](double at_first, double own, double other) {
       return at_first + spring.own * own + spring.other * other;
     };
-    gap.a = opening_under(law[0], under(normal.a, gap.a - had.a, gap.b - had.b), gap.a, spring.own);
-    gap.b = opening_under(law[1], under(normal.b, gap.b - had.b, gap.a - had.a), gap.b, spring.own);
-    constexpr double converged = 1e-14;
-    const double change = std::abs(gap.a - last.a) + std::abs(gap.b - last.b);
-    if (change <= converged * (gap.a + gap.b)) break;
+    gap.a = next_opening(law[0], under(normal.a, gap.a - had.a, gap.b - had.b), gap.a, spring.own);
+    gap.b = next_opening(law[1], under(normal.b, gap.b - had.b, gap.a - had.a), gap.b, spring.own);
+    if (gap.a == last.a && gap.b == last.b) break;
   }
   return gap;
 }
@@ -90,17 +95,19 @@ void open_crack(FaceSet& c, const FaceScene& scene, std::size_t k) {
     const double whole =
         0.5 * c.bond_strength * scene.laws.thickness * law.peak_tension * face.length;
     const auto end = [&](double w, double d) {
-      return EndLaw{w, (1.0 - by_slip) * law.crack_opening, (1.0 - d) * whole,
-                    whole / law.crack_opening, least_pull * whole};
+      return EndLaw{w,
+                    (1.0 - by_slip) * law.crack_opening,
+                    law.crack_opening,
+                    (1.0 - d) * whole,
+                    whole / law.crack_opening,
+                    least_pull * whole};
     };
     const FaceEnds had{c.gap_a[k], c.gap_b[k]};
     const FaceEnds gap =
         openings_under({end(parted.a, damage.a), end(parted.b, damage.b)}, face.normal, had,
                        springs_of(face, face_pair(c, scene.blocks, k)));
+    if (gap.a == had.a && gap.b == had.b) break;
     open_to(c, gap, k);
-    constexpr double converged = 1e-12;
-    const double change = std::abs(gap.a - had.a) + std::abs(gap.b - had.b);
-    if (change <= converged * law.crack_opening) break;
   }
   c.parted_a[k] = std::max(parted.a, c.gap_a[k]);
   c.parted_b[k] = std::max(parted.b, c.gap_b[k]);

@@ -243,8 +243,8 @@ TEST(BadModel, FractureEnergy) {
                "joints.a.fracture_energy", "another residual"},
            Bad{rock + both + "dilation_angle = 5\n" + end, 46, "joints.a.fracture_energy",
                "dilation_angle"},
-           Bad{"[joints.a]\ntype = \"glued\"\n" + both + end, 44, "joints.a.fracture_energy",
-               "does not apply"},
+           Bad{"[joints.a]\ntype = \"glued\"\nfracture_energy = 10\n" + end, 44,
+               "joints.a.fracture_energy", "does not apply"},
        }) {
     expect_fault(bad);
   }

@@ -49,7 +49,7 @@ void expect_every_key(const Model& m) {
   EXPECT_EQ(m.initial_stress->k0_out, 0.75);
   EXPECT_FALSE(m.initial_stress->k0);
   expect_every_gauge_key(m);
-  ASSERT_EQ(m.joints.size(), 4U);
+  ASSERT_EQ(m.joints.size(), 5U);
   EXPECT_EQ(m.joints[0].type, LawType::glued);
   const JointLaw& law = m.joints[1];
   EXPECT_EQ(law.name, "rough");

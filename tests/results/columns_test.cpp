@@ -71,7 +71,7 @@ TEST(Columns, KeepTheirNames) {
             "time,crown.ux,crown.uy,crown.vx,crown.vy,crown.sxx,crown.syy,crown.sxy,"
             "\"a,b.ux\",\"a,b.uy\",\"a,b.vx\",\"a,b.vy\",\"a,b.sxx\",\"a,b.syy\",\"a,b.sxy\","
             "span.convergence,kinetic,strain,contact,gravity,friction,damping,fracture,external,"
-            "step_change,drift,unbalanced,transfer\n");
+            "step_change,drift,unbalanced,transfer,cracks_tension,cracks_shear\n");
   EXPECT_EQ(header_of(ResultFile::reactions), "time,base.fx,base.fy,1.fx,1.fy\n");
   EXPECT_EQ(header_of(ResultFile::bolts),
             "time,bolt,distance,x,y,axial_force,bond_force,dowel_force,utilisation,yielded,"
@@ -83,7 +83,7 @@ TEST(Columns, KeepTheirNames) {
   const std::string joints =
       "block_i,block_j,joint,x,y,normal_force,shear_force,opening,slip,state,ever_slipped,"
       "ever_opened,mobilised,length,closed_length,x_a,y_a,x_b,y_b,normal_stress,normal_stress_a,"
-      "normal_stress_b,shear_stress,table\n";
+      "normal_stress_b,shear_stress,table,damage,broken_by\n";
   EXPECT_EQ(header_of(ResultFile::stage_joints), joints);
   EXPECT_EQ(header_of(ResultFile::joints), joints);
   EXPECT_EQ(header_of(ResultFile::blocks),

@@ -325,6 +325,20 @@ TEST(TileStep, FacesFollowWhereBondsFail) {
   follow(text, 20000, [&](Simulation& sim, int) { broken = sim.motion.contacts.broken; });
   EXPECT_GT(broken, 5u);
 }
+TEST(TileStep, FacesFollowWhereJointsSoften) {
+  std::string text = hit_wall;
+  text.replace(text.find("[solver]"), 0,
+               "cohesion = 2e5\ntensile_strength = 1e5\nfracture_energy = 4\n"
+               "shear_fracture_energy = 40\n");
+  std::uint64_t broken = 0, soften = 0;
+  follow(text, 20000, [&](Simulation& sim, int) {
+    const FaceSet& c = sim.motion.contacts;
+    broken = c.cracks_tension + c.cracks_shear;
+    for (std::size_t k = 0; k < c.size(); ++k) soften += c.is(FaceFlag::softens, k) ? 1 : 0;
+  });
+  EXPECT_GT(broken, 5u);
+  EXPECT_GT(soften, 100u);
+}
 TEST(TileStep, FacesFollowWithBonds) {
   std::string text = falling_heap();
   const std::string bonds = "cohesion = 2e5\ntensile_strength = 1e5\n";

@@ -66,7 +66,8 @@ void check_fracture(const Value* node, const JointLaw& law, Reading& reading) {
               std::move(remedy));
   };
   const Strength &peak = law.peak, &after = law.residual;
-  if (!law.fracture_energy || !law.shear_fracture_energy) {
+  const bool both = given(node, "fracture_energy") && given(node, "shear_fracture_energy");
+  if (!both) {
     refuse("is given alone: a crack may open and slip, and needs the energies of both",
            std::string("give ") + (tension ? "shear_fracture_energy" : "fracture_energy") +
                ", too; in rock that of shear is some 10 times that of tension");
