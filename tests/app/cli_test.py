@@ -45,14 +45,16 @@ class Cli(RampProgram):
         self.assertEqual(list(rows[0])[1:8], ["M." + n for n in "ux uy vx vy sxx syy sxy".split()])
         self.assertEqual(
             list(rows[0])[8:],
-            "kinetic strain contact gravity friction damping fracture external step_change drift unbalanced transfer".split())
+            "kinetic strain contact gravity friction damping fracture external step_change drift unbalanced transfer "
+            "cracks_tension cracks_shear".split())
         blocks = read_cells(self.dir / "m/blocks.csv")
         self.assertEqual(" ".join(blocks[0]), "id name material x y area ux uy rotation vx vy omega sxx syy szz sxy overstress")
         self.assertEqual([b[1] for b in blocks[1:]], ["ramp", "slider"])
         joints = read_cells(self.dir / "m/joints.csv")
         self.assertEqual(" ".join(joints[0]),
                          "block_i block_j joint x y normal_force shear_force opening slip state ever_slipped ever_opened mobilised "
-                         "length closed_length x_a y_a x_b y_b normal_stress normal_stress_a normal_stress_b shear_stress table")
+                         "length closed_length x_a y_a x_b y_b normal_stress normal_stress_a normal_stress_b shear_stress table "
+                         "damage broken_by")
         self.assertEqual(done.stdout.splitlines()[0][:9], "completed")
 
     def test_input_hash_is_that_of_the_file(self):
