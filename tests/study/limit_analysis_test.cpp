@@ -286,6 +286,12 @@ TEST(LimitAnalysis, RefusesWhatHasNoLimit) {
   EXPECT_NE(fault("gravity = [0, 0]\n" + text + "[fos]\nvary = \"kh\"\n").find("gravity"),
             std::string::npos);
   EXPECT_NE(fault(text + "[limit]\ncrushing = true\n").find("ucs"), std::string::npos);
+  std::string cracking = text;
+  cracking.insert(cracking.find("[[block]]"),
+                  "[joints.grains]\nfriction_angle = 30\ncohesion = 1e6\ntensile_strength = 1e5\n"
+                  "fracture_energy = 9\nshear_fracture_energy = 90\n");
+  EXPECT_NE(fault(cracking + "[fos]\nvary = \"strength\"\n").find("grains.fracture_energy"),
+            std::string::npos);
 }
 
 /// A weight that holds a block against a push: more of it holds as well, less of it does not.
