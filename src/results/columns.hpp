@@ -63,8 +63,8 @@ bool is_result_table(std::string_view name);
 
 /// Names of what has columns of its own, in the order of the columns.
 struct ColumnOwners {
-  std::vector<std::string> monitors{}, convergences{}, measurements{}, boundaries{}, quantities{},
-      answers{};
+  std::vector<std::string> monitors{}, convergences{}, boundaries{}, quantities{}, answers{},
+      measurements{};
 };
 
 /// The names of rows of the model, or of what was made of them.

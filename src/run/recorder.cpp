@@ -15,8 +15,10 @@ namespace edda {
 namespace {
 
 ColumnOwners owners_of(const Model& model, const Gauges& gauges) {
-  return {names_in(gauges.monitors), names_in(gauges.convergences), names_in(gauges.measurements),
-          boundary_names(model)};
+  return {.monitors = names_in(gauges.monitors),
+          .convergences = names_in(gauges.convergences),
+          .boundaries = boundary_names(model),
+          .measurements = names_in(gauges.measurements)};
 }
 
 /// The files that the model was read from; none for a model built in memory.

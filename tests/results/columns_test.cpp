@@ -58,7 +58,8 @@ TEST(Columns, OfStressesAndNormalForcesTellTheirSign) {
       };
       const std::string where = std::string(table.file) + ' ' + std::string(c.name);
       const bool is_normal = c.name.starts_with("normal_");
-      const bool is_rock = c.name.ends_with("sxx") || c.name.ends_with("syy") || c.name == "szz";
+      const bool is_rock =
+          c.name.ends_with("sxx") || c.name.ends_with("syy") || c.name.ends_with("szz");
       EXPECT_EQ(says("positive in compression"), is_normal) << where;
       EXPECT_EQ(says("positive in tension"), is_rock || c.name == "axial_force") << where;
     }

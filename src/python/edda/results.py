@@ -60,8 +60,10 @@ class Results:
         """A row per output.history_every.
 
         time (s); of each monitor NAME.ux, .uy (m), .vx, .vy (m/s), .sxx, .syy, .sxy (Pa), of each convergence line
-        NAME.convergence (m); kinetic, strain, contact, gravity, friction, damping, fracture, external, step_change
-        (J, as Ledger); drift, unbalanced (ratios); transfer (J, as Ledger).
+        NAME.convergence (m), of each measured region NAME.mean_sxx, .mean_syy, .mean_szz, .mean_sxy (Pa), .mean_exx,
+        .mean_eyy, .mean_exy; kinetic, strain, contact, gravity, friction, damping, fracture, external, step_change
+        (J, as Ledger); drift, unbalanced (ratios); transfer (J, as Ledger); cracks_tension, cracks_shear (joints with
+        fracture energy that are broken).
         """
         return read_table(self._file("history.csv"))
 
@@ -84,7 +86,8 @@ class Results:
         bonded), ever_slipped, ever_opened (0 or 1), mobilised (shear over shear strength); length of the overlap,
         closed_length of its closed part, its ends x_a, y_a, x_b, y_b (m); normal_stress (Pa, compression positive;
         the mean over the overlap), normal_stress_a, normal_stress_b (at its ends), shear_stress (Pa); table (from which the
-        line of the joint comes, as joint_set.bedding). Forces are those of the model's thickness.
+        line of the joint comes, as joint_set.bedding); damage and broken_by (tension or shear) of joints with fracture
+        energy. Forces are those of the model's thickness.
         """
         return read_table(self._file("joints.csv"))
 
