@@ -92,8 +92,7 @@ void open_crack(FaceSet& c, const FaceScene& scene, std::size_t k) {
   for (int n = 0; n < most; ++n) {
     const Face face = face_at(c, scene.blocks, scene.pose.x, scene.pose.y, k);
     if (!(face.gate > 0.0) || !(face.length > 0.0)) return;
-    const double whole =
-        0.5 * c.bond_strength * scene.laws.thickness * law.peak_tension * face.length;
+    const double whole = 0.5 * scene.laws.thickness * law.peak_tension * face.length;
     const auto end = [&](double w, double d) {
       return EndLaw{w,
                     (1.0 - by_slip) * law.crack_opening,
@@ -159,7 +158,9 @@ void soften_face(FaceSet& c, const FaceScene& scene, std::size_t k) {
     c.set(FaceFlag::softens, k);
   }
   const double stored = normal_energy(c, scene.blocks, scene.pose, k);
+  const FaceEnds parted = parted_of(c, k);
   open_crack(c, scene, k);
+  const bool grows = c.parted_a[k] > parted.a || c.parted_b[k] > parted.b;
   const FaceEnds damage = damage_of(scene.laws.rows[c.law[k]], parted_of(c, k), c.slip_so_far[k]);
   if (damage.a >= 1.0 && damage.b >= 1.0) {
     break_face(c, scene.laws, k);
@@ -167,7 +168,13 @@ void soften_face(FaceSet& c, const FaceScene& scene, std::size_t k) {
     keep_in_touch(c, scene, k);
     put_in_force_as_left(c, scene.laws, k);
   }
-  account_failure_energy(c, stored - normal_energy(c, scene.blocks, scene.pose, k), k);
+  // A crack that closes and opens again spends nothing: what its springs take then they give back.
+  const double lost = stored - normal_energy(c, scene.blocks, scene.pose, k);
+  if (grows || !c.is(FaceFlag::softens, k)) {
+    account_failure_energy(c, lost, k);
+  } else {
+    c.transfer[k] += lost;
+  }
 }
 
 void soften_by_slip(FaceSet& c, const BlockSet& b, const Pose& pose, const LawTable& laws,

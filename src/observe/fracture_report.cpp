@@ -73,7 +73,7 @@ void warn_of_coarse_cracks(const Simulation& sim, std::vector<std::string>& warn
     if (std::max(by_opening, by_slip) > most_of_crack) {
       warnings.push_back(fmt::format(
           "{}: its springs {} by {:.2g} of what spends the fracture energy before the strength is "
-          "reached, and from 2/3 of it a crack would be brittle: raise its {}",
+          "reached, and from a third of it cracks would run in jumps: raise its {}",
           joints[row].where.key, by_opening > by_slip ? "open" : "slip",
           std::max(by_opening, by_slip), by_opening > by_slip ? "kn" : "ks"));
     }

@@ -60,7 +60,6 @@ struct Joint : MovedBlocks {
     }
     return before - work;
   }
-  double expected_balance() const { return balance(); }
 };
 
 test::Place lifted(double by) {
@@ -149,6 +148,20 @@ TEST(FaceSoftening, UnloadsElastically) {
     EXPECT_NEAR(j.faces.parted_a[j.k], crack, 1e-9 * opening);
     EXPECT_NEAR(j.fracture(), spent, 1e-3 * spent);
   }
+}
+
+/// A crack that opens and closes many times in coarse steps, and never farther, spends nothing.
+TEST(FaceSoftening, RattlingSpendsNothing) {
+  Joint j;
+  const double half = 0.5 * opening;
+  j.drive([&](double t) { return lifted(t * half); }, 2000);
+  const double spent = j.fracture(), crack = j.faces.parted_a[j.k];
+  for (int n = 0; n < 200; ++n) {
+    j.go(1, lifted(-0.2 * opening));
+    j.go(1, lifted(0.3 * opening));
+  }
+  EXPECT_EQ(j.faces.parted_a[j.k], crack);
+  EXPECT_EQ(j.fracture(), spent);
 }
 
 /// In shear without normal stress: peak c, a straight line down to 0 at s_c; the crack takes G_II.
