@@ -86,7 +86,7 @@ void open_to(FaceSet& c, FaceEnds gap, std::size_t k) {
 /// Opens the crack of the face at the positions of the scene.
 void open_crack(FaceSet& c, const FaceScene& scene, std::size_t k) {
   const Law& law = scene.laws.rows[c.law[k]];
-  const FaceEnds parted = parted_of(c, k), damage = damage_of(law, parted, c.slip_so_far[k]);
+  const FaceEnds parted = parted_of(c, k), damage = damage_of(c, scene.laws, k);
   const double by_slip = std::min(c.slip_so_far[k] / law.crack_slip, 1.0);
   constexpr int most = 8;
   for (int n = 0; n < most; ++n) {
@@ -146,6 +146,10 @@ FaceEnds damage_of(const Law& law, FaceEnds parted, double slip) {
           std::min(parted.b / law.crack_opening + by_slip, 1.0)};
 }
 
+FaceEnds damage_of(const FaceSet& c, const LawTable& laws, std::size_t k) {
+  return damage_of(laws.rows[c.law[k]], parted_of(c, k), c.slip_so_far[k]);
+}
+
 bool may_soften(const FaceSet& c, const LawTable& laws, std::size_t k) {
   return laws.rows[c.law[k]].softens && c.is(FaceFlag::carries_tension, k) &&
          (c.is(FaceFlag::intact, k) || c.is(FaceFlag::softens, k));
@@ -161,7 +165,7 @@ void soften_face(FaceSet& c, const FaceScene& scene, std::size_t k) {
   const FaceEnds parted = parted_of(c, k);
   open_crack(c, scene, k);
   const bool grows = c.parted_a[k] > parted.a || c.parted_b[k] > parted.b;
-  const FaceEnds damage = damage_of(scene.laws.rows[c.law[k]], parted_of(c, k), c.slip_so_far[k]);
+  const FaceEnds damage = damage_of(c, scene.laws, k);
   if (damage.a >= 1.0 && damage.b >= 1.0) {
     break_face(c, scene.laws, k);
   } else {

@@ -25,6 +25,8 @@ namespace edda {
 
 /// D of both ends at these openings w (m) and at the slip s (m).
 FaceEnds damage_of(const Law& law, FaceEnds parted, double slip);
+/// Those of face k.
+FaceEnds damage_of(const FaceSet& faces, const LawTable& laws, std::size_t k);
 
 /// Whether decide_face() leaves face k to soften_face(): its law softens, and it carries tension.
 bool may_soften(const FaceSet& faces, const LawTable& laws, std::size_t k);

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 
 #include "base/parallel.hpp"
 #include "contacts/evaluate_face.hpp"
@@ -46,11 +45,19 @@ void load_changed(FaceTiles& t, const FaceSet& c, const Pose& pose, std::size_t 
   }
 }
 
+/// Loads all that have changed.
+void load_changed(FaceTiles& t, const FaceSet& c, const Pose& pose,
+                  const std::vector<std::uint8_t>& changed) {
+  if (std::find(changed.begin(), changed.end(), 1) == changed.end()) return;
+  std::vector<char> no_scratch;
+  parallel_tasks(t.tiles.size(), 20 * c.size(), no_scratch,
+                 [&](std::size_t tile, char&) { load_changed(t, c, pose, tile, changed); });
+}
+
 /// Weakens the faces whose cracks have slipped in the last step.
 void soften_slipping(FaceSet& c, FaceTiles& t, const BlockSet& b, const Pose& pose,
                      const LawTable& laws) {
   std::vector<std::uint8_t> changed(c.size(), 0);
-  std::atomic<bool> any = false;
   parallel_for(
       c.size(),
       [&](std::size_t k) {
@@ -58,13 +65,9 @@ void soften_slipping(FaceSet& c, FaceTiles& t, const BlockSet& b, const Pose& po
         recall_work(c, t, k);
         soften_by_slip(c, b, pose, laws, remembered(t, k), k);
         changed[k] = 1;
-        any.store(true, std::memory_order_relaxed);
       },
       2);
-  if (!any) return;
-  std::vector<char> no_scratch;
-  parallel_tasks(t.tiles.size(), 20 * c.size(), no_scratch,
-                 [&](std::size_t tile, char&) { load_changed(t, c, pose, tile, changed); });
+  load_changed(t, c, pose, changed);
 }
 
 }  // namespace
@@ -88,9 +91,7 @@ void update_joint_laws(FaceSet& c, FaceTiles& t, const BlockSet& b, const Pose& 
         changed[k] = in_force(c, k) == had ? 0 : 1;
       },
       cost);
-  std::vector<char> no_scratch;
-  parallel_tasks(t.tiles.size(), 20 * c.size(), no_scratch,
-                 [&](std::size_t tile, char&) { load_changed(t, c, pose, tile, changed); });
+  load_changed(t, c, pose, changed);
 }
 
 void begin_step(FaceSet& c, FaceTiles& t, const BlockSet& b, const Pose& pose,

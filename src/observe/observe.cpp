@@ -83,8 +83,7 @@ Vec2 displacement_of_corner(const BlockSet& b, const State& s, std::size_t v) {
 void add_crack(ContactRecord& r, const Simulation& sim, std::size_t k) {
   const FaceSet& f = sim.motion.contacts;
   if (f.is(FaceFlag::softens, k)) {
-    const FaceEnds damage =
-        damage_of(sim.motion.laws.rows[f.law[k]], {f.parted_a[k], f.parted_b[k]}, f.slip_so_far[k]);
+    const FaceEnds damage = damage_of(f, sim.motion.laws, k);
     r.damage = 0.5 * (damage.a + damage.b);
   } else if (f.is(FaceFlag::broken_in_tension, k) || f.is(FaceFlag::broken_in_shear, k)) {
     r.damage = 1.0;

@@ -46,10 +46,7 @@ struct Joint : MovedBlocks {
   /// Normal stress, Pa, tension positive, and shear stress that act on the square.
   double pull() const { return -force_on(1).y / thickness; }
   double shear() const { return -force_on(1).x / thickness; }
-  FaceEnds damage() const {
-    return damage_of(laws.rows[faces.law[k]], {faces.parted_a[k], faces.parted_b[k]},
-                     faces.slip_so_far[k]);
-  }
+  FaceEnds damage() const { return damage_of(faces, laws, k); }
   /// Work that drives the square, J; each(t) gives its place, t from 0 to 1.
   double drive(const std::function<test::Place(double)>& at, int steps,
                const std::function<void()>& each = {}) {
