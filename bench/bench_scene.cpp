@@ -64,6 +64,13 @@ bool read_options(int argc, char** argv, Options& o) {
   return !o.scene.empty();
 }
 
+/// Those of meshed blocks instead of these.
+std::size_t blocks_and_zones(const edda::BlockSet& b) {
+  std::size_t count = b.meshes.zone.size();
+  for (std::size_t i = 0; i < b.size(); ++i) count += b.is_meshed(i) ? 0 : 1;
+  return count;
+}
+
 void describe(edda::BenchScene& scene, double made_in) {
   const Simulation& s = scene.sim;
   std::size_t closed = 0;
@@ -73,7 +80,7 @@ void describe(edda::BenchScene& scene, double made_in) {
   std::printf(
       "{\"blocks\": %zu, \"candidates\": %zu, \"closed\": %zu, \"step\": %.6g, "
       "\"critical_step\": %.6g, \"row_error\": %.3g, \"made_in\": %.2f}\n",
-      s.scene->blocks.size(), s.motion.contacts.size(), closed, s.motion.state.step,
+      blocks_and_zones(s.scene->blocks), s.motion.contacts.size(), closed, s.motion.state.step,
       s.control.bound.critical_step, scene.row_error, made_in);
   std::fflush(stdout);
 }

@@ -153,10 +153,43 @@ Simulation free_blocks(int count) {
   return sim;
 }
 
-Simulation cavern() {
-  Simulation sim = built(read_model(std::string(EDDA_SOURCE_DIR) + "/examples/cavern.toml"));
+Simulation example(const std::string& name) {
+  Simulation sim = built(read_model(std::string(EDDA_SOURCE_DIR) + "/examples/" + name + ".toml"));
   start(sim, 1000.0);
   take_steps(sim, 2000);
+  return sim;
+}
+
+/// A square of ground in zones, of the stress that its weight gives it; all of it may yield.
+Simulation ground_at_rest(int side) {
+  const std::string toml = fmt::format(R"(
+[materials.rock]
+density = 2600.0
+young = "10 GPa"
+poisson = 0.25
+yield = {{ friction_angle = 35, cohesion = "1 MPa", tensile_strength = "0.2 MPa" }}
+[joints.none]
+friction_angle = 35.0
+[domain]
+outline = [[0, 0], [{0}, 0], [{0}, {0}], [0, {0}]]
+material = "rock"
+[contact]
+joint = "none"
+[[boundary]]
+sides = ["left", "right", "bottom"]
+type = "roller"
+[initial_stress]
+k0 = 0.5
+surface = "outline"
+[zones]
+size = 0.5
+[solver]
+duration = 1000.0
+)",
+                                       side);
+  Simulation sim = built(read_model_text(toml, "ground.toml"));
+  start(sim, 1000.0);
+  take_steps(sim, 200);
   return sim;
 }
 
@@ -207,8 +240,9 @@ std::string flaw_of_scene(const std::string& scene) {
   const bool two = n.first > 0 && n.second > 0 && n.first <= most / n.second;
   if (n.kind == "wall" || n.kind == "collapse") return two ? "" : name + ": needs COLUMNSxROWS";
   if (n.kind == "heap" || n.kind == "free") return one ? "" : name + ": needs a number of blocks";
-  if (n.kind == "rock") return one ? "" : name + ": needs the length of a side, m";
-  if (name == "cavern") return "";
+  if (n.kind == "rock" || n.kind == "ground")
+    return one ? "" : name + ": needs the length of a side, m";
+  if (name == "cavern" || name == "squeezing") return "";
   return name + ": no such scene";
 }
 
@@ -219,7 +253,8 @@ BenchScene make_scene(const std::string& scene_name, const std::string& cache) {
   if (n.kind == "heap") return {flowing_heap(n.first)};
   if (n.kind == "free") return {free_blocks(n.first)};
   if (n.kind == "rock") return {rock_at_rest(n.first)};
-  if (n.kind == "cavern") return {cavern()};
+  if (n.kind == "ground") return {ground_at_rest(n.first)};
+  if (n.kind == "cavern" || n.kind == "squeezing") return {example(name)};
   BenchScene scene{settled_wall(n.first, n.second, cache)};
   scene.row_error = error_of_row_forces(scene.sim);
   return scene;

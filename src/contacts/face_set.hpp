@@ -145,6 +145,8 @@ struct FaceSet : RowTable<FaceProperties<RowColumn>, face_property_list<RowColum
   bool bonded(std::size_t k) const {
     return bond(k) != BondState::unbonded || is(FaceFlag::glued_by_stage, k);
   }
+  /// Whether it has strength beyond the residual one.
+  bool holds(std::size_t k) const { return bonded(k) || is(FaceFlag::softens, k); }
   /// Whether it transmits tension.
   bool carries_tension(std::size_t k) const {
     return is(FaceFlag::carries_tension, k) || is(FaceFlag::glued_by_stage, k);

@@ -129,7 +129,6 @@ void break_face(FaceSet& c, const LawTable& laws, std::size_t k) {
   set_residual_strength(c, laws, k);
   c.set(FaceFlag::softens, k, false);
   c.set(sheared ? FaceFlag::broken_in_shear : FaceFlag::broken_in_tension, k);
-  c.set(FaceFlag::opened, k);
   c.mark_failure(k, true);
 }
 
@@ -166,6 +165,7 @@ void soften_face(FaceSet& c, const FaceScene& scene, std::size_t k) {
   open_crack(c, scene, k);
   const bool grows = c.parted_a[k] > parted.a || c.parted_b[k] > parted.b;
   const FaceEnds damage = damage_of(c, scene.laws, k);
+  if (grows) c.set(FaceFlag::opened, k);
   if (damage.a >= 1.0 && damage.b >= 1.0) {
     break_face(c, scene.laws, k);
   } else {

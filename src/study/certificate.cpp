@@ -53,7 +53,7 @@ std::vector<RigidStrength> strength_now(const Simulation& now, const RigidBlocks
   const FaceSet& f = now.motion.contacts;
   for (std::size_t k = 0; k < all.size(); ++k) {
     const RigidJoint& joint = rigid.joints[k];
-    const bool broken = face_row(now, joint.face).state.energy > 0.0 && !f.bonded(joint.face);
+    const bool broken = face_row(now, joint.face).state.energy > 0.0 && !f.holds(joint.face);
     if (broken && !laws.rows[joint.law].changes) continue;
     all[k].friction = std::max(all[k].friction, peak[k].friction);
     all[k].shear = std::max(all[k].shear, peak[k].shear);

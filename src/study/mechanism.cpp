@@ -287,7 +287,7 @@ void find_lost_cohesion(Mechanism& m, const Simulation& stable) {
   for (std::size_t k = 0; k < f.size(); ++k) {
     const auto [i, j] = blocks_of_face(stable.scene->blocks, f, k);
     if (!brittle.contains({i, j, f.law[k]})) continue;
-    const bool lost = !f.bonded(k);
+    const bool lost = !f.holds(k);
     const FaceRow row = face_row(stable, k);
     if (lost && !is_closed(row) && !row.opened) continue;  // was never bonded
     m.brittle_length += row.state.length;
@@ -302,7 +302,7 @@ std::string lost_cohesion_text(const Mechanism& m) {
   if (!has_lost_cohesion(m)) return {};
   return fmt::format(
       "{} of joints in the mechanism had already lost their cohesion before failure. If cohesion "
-      "should survive, set residual.cohesion",
+      "should survive, set residual.cohesion (joints with fracture energies keep none)",
       brittle_part(m));
 }
 

@@ -81,6 +81,13 @@ TEST(FaceSoftening, TakesItsFractureEnergyInTension) {
                                            ? kn * lifted_by
                                            : tension * std::max(1.0 - crack / opening, 0.0);
                   off = std::max(off, std::abs(j.pull() - exact) / tension);
+                  const bool cracked = crack > 0.01 * opening, broken = crack > 1.01 * opening;
+                  if (std::abs(crack) > 0.01 * opening && !broken) {
+                    EXPECT_EQ(j.faces.is(FaceFlag::opened, j.k), cracked) << crack / opening;
+                  }
+                  if (std::abs(crack / opening - 1.0) > 0.01) {
+                    EXPECT_EQ(j.faces.holds(j.k), !broken) << crack / opening;
+                  }
                 });
     EXPECT_NEAR(peak / tension, 1.0, 1e-3) << given;
     EXPECT_LT(off, 1e-3) << given;

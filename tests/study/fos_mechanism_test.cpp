@@ -31,7 +31,9 @@ TEST(Fos, ReportsCohesionThatWasLostBefore) {
       << brittle.mechanism->text;
   EXPECT_NE(lost_cohesion_text(*brittle.mechanism)
                 .find("all 2 m of joints in the mechanism had already lost their cohesion before "
-                      "failure. If cohesion should survive, set residual.cohesion"),
+                      "failure. If cohesion should survive, set residual.cohesion (joints with "
+                      "fracture energies keep "
+                      "none)"),
             std::string::npos);
   EXPECT_NE(fos_summary(model_of(ramp(law)), brittle, 1).find("\"cohesion_lost_length\""),
             std::string::npos);

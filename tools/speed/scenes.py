@@ -12,9 +12,9 @@ from speed.programs import ROOT, Running, circumstances, commit, processor
 TIMES = 5  # that a scene is measured, unless told otherwise
 HISTORY = ROOT / "bench" / "history.csv"
 SCENES = ["wall:67x30", "wall:667x30", "wall:3334x30", "wall:33334x30", "collapse:230x87", "heap:5000", "cavern",
-          "rock:50", "free:20000"]
-SMALL = ["wall:67x30", "collapse:67x30", "heap:2000", "cavern", "rock:50", "free:2000"]
-QUICK = ["wall:20x10", "collapse:20x10", "heap:200", "cavern", "rock:10", "free:200"]
+          "rock:50", "free:20000", "squeezing", "ground:50"]
+SMALL = ["wall:67x30", "collapse:67x30", "heap:2000", "cavern", "rock:50", "free:2000", "squeezing"]
+QUICK = ["wall:20x10", "collapse:20x10", "heap:200", "cavern", "rock:10", "free:200", "ground:5"]
 
 
 def names(given):
@@ -42,7 +42,12 @@ def beside(name, blocks):
 def blocks_of(name):
     """How many the name asks for, near enough to choose the number of steps."""
     numbers = [int(n) for n in re.findall(r"\d+", name)]
-    return numbers[0] * (numbers[1] if len(numbers) > 1 else 1) if numbers else 200
+    if not numbers:
+        return {"cavern": 200, "squeezing": 10_000}[name]
+    of_square = {"rock": 1, "ground": 9}.get(name.partition(":")[0])  # per m2
+    if of_square:
+        return of_square * numbers[0] ** 2
+    return numbers[0] * (numbers[1] if len(numbers) > 1 else 1)
 
 
 def steps_of(name, wanted):
