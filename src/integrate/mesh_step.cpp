@@ -92,6 +92,7 @@ void account_meshes(const State& s, const Leap& leap, double* joules, std::size_
     const MeshOf m = mesh_of(b, i);
     const Kick kick = kick_of_block(leap, i);
     const double mass = 1.0 / leap.masses.mode_inverse[i], by_mass = leap.damping.mass_of(i);
+    if (kick.local == 0.0 && by_mass == 0.0) continue;
     const ModeVectors& on = leap.force.modes;
     const AffinePart common = common_part(m, [&](std::size_t j) { return on[m.mode + j]; });
     double sum = 0.0;

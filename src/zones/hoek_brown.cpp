@@ -75,6 +75,17 @@ double distance_from_yield(const HoekBrown& r, double s1, double s3) {
   return (s1 - s3 - to.deviator + to.slope * (s1 - to.s1)) / (1.0 + to.slope);
 }
 
+bool within(const HoekBrown& r, const Principal& s) {
+  const double most = std::max({s[0], s[1], s[2]}), least = std::min({s[0], s[1], s[2]});
+  if (!(most <= cut_off(r))) return false;
+  // Below the surface without a power: x^a is no less than x^(3/4) below 1, and sqrt(x) above.
+  const double base = r.s - r.m * most / r.strength, root = std::sqrt(std::max(base, 0.0)),
+               less = base < 1.0 ? root * std::sqrt(root) : root;
+  const bool deep = r.factor == 1.0 && r.a >= 0.5 && r.a <= 0.75;
+  if (deep && most - least <= r.strength * less) return true;
+  return distance_from_yield(r, most, least) <= 0.0;
+}
+
 ReturnedStress return_to(const HoekBrown& rock, const IsotropicElasticity& elastic,
                          const Principal& trial) {
   return in_order(trial, [&](const Principal& sorted) {

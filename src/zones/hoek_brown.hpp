@@ -29,6 +29,9 @@ HoekBrownConstants hoek_brown_constants(double index, double intact, double dist
 /// Distance of s1 and s3 from the surface along s1, Pa; positive outside.
 double distance_from_yield(const HoekBrown& rock, double s1, double s3);
 
+/// Whether stresses in any order lie within the surface and the cut-off.
+bool within(const HoekBrown& rock, const Principal& s);
+
 /// Return of stresses in any order, by planes that touch the surface where the last return has
 /// ended: the domain is convex, so that each of them leaves it whole.
 ReturnedStress return_to(const HoekBrown& rock, const IsotropicElasticity& elastic,

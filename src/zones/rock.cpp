@@ -110,6 +110,13 @@ ZoneMaterial divided(const ZoneMaterial& rock, double factor) {
   return r;
 }
 
+bool stays_elastic(const ZoneMaterial& rock, double slip, const Principal& stress) {
+  if (yields(rock.residual) && slip > 0.0) return false;
+  if (const auto* s = std::get_if<MohrCoulombSurface>(&rock.peak))
+    return within(s->planes, stress, 0.0);
+  return within(std::get<HoekBrown>(rock.peak), stress);
+}
+
 ReturnedStress return_to(const ZoneMaterial& rock, double slip, const Principal& trial) {
   const auto on = [&](const YieldSurface& surface) {
     if (const auto* s = std::get_if<MohrCoulombSurface>(&surface))

@@ -41,6 +41,10 @@ inline ZoneMaterial rock_that_yields(const IsotropicElasticity& elastic,
 /// With the shear and tensile strength divided by a factor, dilation with the friction.
 ZoneMaterial divided(const ZoneMaterial& rock, double factor);
 
+/// Whether stresses in any order are within the strength after a slip (m); false where rock that
+/// softens has begun to: return_to() knows.
+bool stays_elastic(const ZoneMaterial& rock, double slip, const Principal& stress);
+
 /// Return of stresses in any order to the strength of the rock after a slip (m); it yields.
 ReturnedStress return_to(const ZoneMaterial& rock, double slip, const Principal& trial);
 

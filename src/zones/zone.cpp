@@ -41,15 +41,11 @@ Spectrum2 spectrum_of(double xx, double xy, double yy) {
   return {mean + r, mean - r, n};
 }
 
+/// F; the gradients have the sum 0.
 Matrix2 deformation_of(const ZoneShape& z, const std::array<Vec2, 3>& x) {
-  Matrix2 f{0.0, 0.0, 0.0, 0.0};
-  for (std::size_t k = 0; k < x.size(); ++k) {
-    f.xx += x[k].x * z.gradient[k].x;
-    f.xy += x[k].x * z.gradient[k].y;
-    f.yx += x[k].y * z.gradient[k].x;
-    f.yy += x[k].y * z.gradient[k].y;
-  }
-  return f;
+  const Vec2 a = x[1] - x[0], b = x[2] - x[0], g = z.gradient[1], h = z.gradient[2];
+  return {a.x * g.x + b.x * h.x, a.x * g.y + b.x * h.y, a.y * g.x + b.y * h.x,
+          a.y * g.y + b.y * h.y};
 }
 
 /// The rotation R of F.

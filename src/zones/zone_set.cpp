@@ -11,7 +11,7 @@
 namespace edda {
 namespace {
 
-constexpr std::size_t cost_of_a_pair = 200;  // ns
+constexpr std::size_t cost_of_pairs = 800;  // ns, of a group
 
 /// The mesh of block i by itself.
 Mesh mesh_of(const Meshes& m, std::size_t i) {
@@ -106,6 +106,20 @@ void find_squares(ZoneModel& zones, const Model& model, const BlockSet& b) {
   }
 }
 
+/// Fills ZoneModel::group; the last pair fills up the last one.
+void make_groups(ZoneModel& zones, const BlockSet& b) {
+  zones.group.resize((zones.pair.size() + pairs_at_once - 1) / pairs_at_once);
+  for (std::size_t g = 0; g < zones.group.size(); ++g) {
+    for (std::size_t at = 0; at < pairs_at_once; ++at) {
+      const std::size_t p = std::min(g * pairs_at_once + at, zones.pair.size() - 1);
+      const auto [one, other] = zones.pair[p];
+      const ZoneShape second = other == no_partner ? ZoneShape{} : zones.shape[other];
+      const auto material = static_cast<std::size_t>(b.material[zones.pair_block[p]]);
+      set_shape(zones.group[g], at, {zones.shape[one], second}, zones.material[material].elastic);
+    }
+  }
+}
+
 /// Where the mesh nodes of the blocks [begin, end) are; of velocities, theirs.
 void place_nodes(const BlockSet& b, const BodyVectors& u, std::vector<Vec2>& to, std::size_t begin,
                  std::size_t end) {
@@ -134,6 +148,22 @@ std::array<Vec2, corners_of_zone> at_corners(const Meshes& m, const std::vector<
   return {of[a], of[b], of[c]};
 }
 
+/// The work h v . (f - f before) of the new forces on zone z, J, which become those in force.
+double replace_force(const BlockSet& b, double h, Zones& all, std::uint32_t z,
+                     const std::array<Vec2, corners_of_zone>& force) {
+  const std::array<Vec2, corners_of_zone> v = at_corners(b.meshes, all.rate, z);
+  double change = 0.0;
+  for (std::size_t k = 0; k < corners_of_zone; ++k)
+    change += dot(force[k] - all.force[z][k], h * v[k]);
+  all.force[z] = force;
+  return change;
+}
+
+void replace_stored(Zones& all, std::size_t p, double stored, double change) {
+  all.stored_between[p] = 0.5 * (all.stored[p] + stored) + 0.25 * change;
+  all.stored[p] = stored;
+}
+
 void evaluate_pair(const ZoneModel& model, const BlockSet& b, double h, Zones& all, std::size_t p) {
   const std::size_t i = model.pair_block[p];
   const std::array<std::uint32_t, 2> zone = model.pair[p];
@@ -151,18 +181,73 @@ void evaluate_pair(const ZoneModel& model, const BlockSet& b, double h, Zones& a
   double stored = 0.0, change = 0.0;
   for (std::size_t q = 0; q < many; ++q) {
     const std::uint32_t z = zone[q];
-    const std::array<Vec2, 3> v = at_corners(b.meshes, all.rate, z);
-    for (std::size_t k = 0; k < corners_of_zone; ++k)
-      change += dot(result[q].force[k] - all.force[z][k], h * v[k]);
+    change += replace_force(b, h, all, z, result[q].force);
     all.state[z] = state[q];
-    all.force[z] = result[q].force;
     all.stress[z] = result[q].stress;
     all.yielding[z] = static_cast<std::uint8_t>(result[q].yielding);
     stored += result[q].stored;
     all.dissipated[p] += result[q].dissipated;
   }
-  all.stored_between[p] = 0.5 * (all.stored[p] + stored) + 0.25 * change;
-  all.stored[p] = stored;
+  replace_stored(all, p, stored, change);
+}
+
+/// Takes over what the pair `at` of a group, which is pair p, is as nothing flows in it.
+void take_elastic(const PairResults& r, std::size_t at, const ZoneModel& model, const BlockSet& b,
+                  double h, Zones& all, std::size_t p) {
+  double change = 0.0;
+  for (std::size_t q = 0; q < 2; ++q) {
+    const std::uint32_t z = model.pair[p][q];
+    if (z == no_partner) break;
+    std::array<Vec2, corners_of_zone> force;
+    for (std::size_t k = 0; k < corners_of_zone; ++k)
+      force[k] = {r.force_x[q][k][at], r.force_y[q][k][at]};
+    change += replace_force(b, h, all, z, force);
+    for (std::size_t c = 0; c < 4; ++c) {
+      all.state[z].stress[c] = r.remembered[q][c][at];
+      all.stress[z][c] = r.stress[q][c][at];
+    }
+    all.yielding[z] = static_cast<std::uint8_t>(Yielding::nowhere);
+  }
+  replace_stored(all, p, r.stored[at], change);
+}
+
+bool may_flow(const PairResults& r, std::size_t at, const ZoneModel& model, const BlockSet& b,
+              const Zones& all, std::size_t p) {
+  const ZoneMaterial& rock =
+      all.material[static_cast<std::size_t>(b.material[model.pair_block[p]])];
+  if (!(r.within[at] > 0.0)) return true;
+  for (std::size_t q = 0; q < 2; ++q) {
+    const std::uint32_t z = model.pair[p][q];
+    if (z == no_partner) break;
+    if (may_flow(r, at, q, rock, model.shape[z].width * all.state[z].plastic_shear)) return true;
+  }
+  return false;
+}
+
+/// The pairs of group g.
+void evaluate_group(const ZoneModel& model, const BlockSet& b, const State& s, double h, Zones& all,
+                    std::size_t g) {
+  const std::size_t first = g * pairs_at_once;
+  const auto pair_at = [&](std::size_t at) { return std::min(first + at, model.pair.size() - 1); };
+  PairInputs in;
+  for (std::size_t at = 0; at < pairs_at_once; ++at) {
+    auto [one, other] = model.pair[pair_at(at)];
+    if (other == no_partner) other = one;
+    set_inputs(in, at,
+               {at_corners(b.meshes, all.place, one), at_corners(b.meshes, all.place, other)},
+               {&all.state[one], &all.state[other]});
+  }
+  PairResults r;
+  evaluate_pairs(model.group[g], in, r);
+  for (std::size_t at = 0; first + at < model.pair.size() && at < pairs_at_once; ++at) {
+    const std::size_t p = first + at;
+    if (s.alive[model.pair_block[p]] == 0) continue;
+    if (may_flow(r, at, model, b, all, p)) {
+      evaluate_pair(model, b, h, all, p);
+    } else {
+      take_elastic(r, at, model, b, h, all, p);
+    }
+  }
 }
 
 /// Stress at the start: xx, yy, zz, xy.
@@ -194,6 +279,7 @@ ZoneModel make_zones(const Model& model, const BlockSet& b) {
     }
     zones.pair_begin.push_back(static_cast<std::uint32_t>(zones.pair.size()));
   }
+  make_groups(zones, b);
   for (const auto& zone : m.zone) {
     for (const std::uint32_t j : zone) ++count[j + 1];
   }
@@ -256,11 +342,8 @@ void evaluate_zones(const ZoneModel& model, const BlockSet& b, const State& s, d
   if (model.pair.empty()) return;
   place_all_nodes(b, s, zones);
   parallel_for(
-      model.pair.size(),
-      [&](std::size_t p) {
-        if (s.alive[model.pair_block[p]] != 0) evaluate_pair(model, b, h, zones, p);
-      },
-      cost_of_a_pair);
+      model.group.size(), [&](std::size_t g) { evaluate_group(model, b, s, h, zones, g); },
+      cost_of_pairs);
 }
 
 void start_zones(const ZoneModel& model, const BlockSet& b, const State& s, double h,

@@ -7,6 +7,7 @@
 
 #include "blocks/initial_stress.hpp"
 #include "blocks/state.hpp"
+#include "zones/pair_lanes.hpp"
 #include "zones/zone.hpp"
 
 namespace edda {
@@ -17,6 +18,7 @@ struct ZoneModel {
   std::vector<std::array<std::uint32_t, 2>> pair;  ///< [pairs] zones; second: no_partner
   std::vector<std::uint32_t> pair_begin;           ///< [nb + 1] first pair of each block
   std::vector<std::uint32_t> pair_block;           ///< [pairs]
+  std::vector<PairShapes> group;                   ///< of pairs_at_once pairs each
   std::vector<ZoneMaterial> material;              ///< [materials of the model]
   std::vector<std::uint32_t> around_begin;         ///< [mesh nodes + 1]
   std::vector<double> square;  ///< [mesh nodes] largest of the squares of the highest frequencies
