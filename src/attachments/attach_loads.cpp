@@ -146,6 +146,25 @@ std::vector<std::array<Vec2, 2>> dry_outlines(const Model& model, const Water& w
   return lines;
 }
 
+/// The zones between the ends of the table, whose rock has pores.
+void wet_pores(const Model& model, const BlockSet& b, const Table& table, double snap, Index row,
+               std::vector<WetZone>& wet) {
+  const Meshes& m = b.meshes;
+  for (std::size_t i = 0; m.any() && i < b.size(); ++i) {
+    if (b.material[i] == none) continue;
+    if (b.fixed[i] || !model.materials[static_cast<std::size_t>(b.material[i])].pore_pressure)
+      continue;
+    for (std::uint32_t z = m.zone_begin[i]; z < m.zone_begin[i + 1]; ++z) {
+      double arm = 0.0;
+      for (const std::uint32_t j : m.zone[z]) arm += m.arm_x[j] / corners_of_zone;
+      const double x = b.centroid_x[i] + arm;
+      if (x < table.low() - snap || x > table.high() + snap) continue;
+      wet.push_back(
+          {z, static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(row), table.at(x)});
+    }
+  }
+}
+
 void attach_water(const Model& model, const Water& water, Index row, const BlockSet& b, double snap,
                   Loads& loads, Faults& faults) {
   Table table;
@@ -162,6 +181,7 @@ void attach_water(const Model& model, const Water& water, Index row, const Block
     }
     wet_edge(b, v, table, dry, snap, row, loads.wet);
   }
+  wet_pores(model, b, table, snap, row, loads.wet_zones);
   if (loads.wet.size() > before) return;
   Fault fault{water.where, "no face of a free block lies between the ends of the table",
               "give a table that lies above the blocks it is to act on"};
@@ -257,6 +277,8 @@ Result<Loads> attach_loads(const Model& model, const PolygonSet& polygons, const
     attach_water(model, model.waters[q], static_cast<Index>(q), b, snap, loads, faults);
   }
   if (!faults.empty()) return faults;
+  std::stable_sort(loads.wet_zones.begin(), loads.wet_zones.end(),
+                   [](const WetZone& x, const WetZone& y) { return x.zone < y.zone; });
   sort_by_block(b, loads);
   return loads;
 }

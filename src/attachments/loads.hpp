@@ -149,7 +149,8 @@ struct Loads {
   std::vector<PointLoad> points;
   std::vector<EdgeLoad> edges;
   std::vector<WetEdge> wet;
-  std::vector<Id> blocks;  ///< blocks that carry any, ascending
+  std::vector<WetZone> wet_zones;  ///< by zone
+  std::vector<Id> blocks;          ///< blocks that carry any, ascending
   struct Range {
     Id point_begin, point_end, edge_begin, edge_end, wet_begin, wet_end;
   };

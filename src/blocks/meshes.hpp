@@ -22,6 +22,13 @@ namespace edda {
 
 inline constexpr std::size_t corners_of_zone = 3;
 
+/// Water in the pores of a zone of a block, under the table of a row of Model::waters at y = level,
+/// m.
+struct WetZone {
+  std::uint32_t zone = 0, block = 0, water = 0;
+  double level = 0.0;
+};
+
 /// What the forces on the nodes of a mesh have in common with affine motion: sum_j P_j f_j.
 struct AffinePart {
   Vec2 one, x, y;

@@ -87,6 +87,7 @@ struct Material {
   std::optional<FoliationInputs> foliation{};
   std::optional<double> zone_size{};  ///< m; empty: that of [zones]
   BlockDeformation deformation = BlockDeformation::automatic;
+  bool pore_pressure = true;  ///< of the water in the pores of its zones
   double damping =
       0.5;  ///< strain damping, as a fraction of critical in the lowest mode of a block
 };

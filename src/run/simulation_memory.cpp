@@ -19,6 +19,21 @@ namespace edda {
 namespace {
 
 template <class Archive>
+void list_zones(Archive& a, Zones& zones) {
+  list_numbers(a, "zones.state", zones.state);
+  list_numbers(a, "zones.force", zones.force);
+  list_numbers(a, "zones.stress", zones.stress);
+  a("zones.yielding", zones.yielding);
+  a("zones.stored", zones.stored);
+  a("zones.stored_between", zones.stored_between);
+  a("zones.dissipated", zones.dissipated);
+  a("zones.pore", zones.pore);
+  a("zones.swelling", zones.swelling);
+  a("zones.pore_work", zones.pore_work);
+  a("zones.pore_work_due", zones.pore_work_due);
+}
+
+template <class Archive>
 void list_state(Archive& a, Simulation& s) {
   list_vectors(a, "state.position", s.motion.state.position);
   list_vectors(a, "state.velocity", s.motion.state.velocity);
@@ -66,14 +81,7 @@ void list_state(Archive& a, Simulation& s) {
   list_vectors(a, "forces", s.motion.forces);
   list_vectors(a, "on_contacts", s.motion.on_contacts);
   list_vectors(a, "jump", s.motion.jump);
-  Zones& zones = s.motion.zones;
-  list_numbers(a, "zones.state", zones.state);
-  list_numbers(a, "zones.force", zones.force);
-  list_numbers(a, "zones.stress", zones.stress);
-  a("zones.yielding", zones.yielding);
-  a("zones.stored", zones.stored);
-  a("zones.stored_between", zones.stored_between);
-  a("zones.dissipated", zones.dissipated);
+  list_zones(a, s.motion.zones);
   a("locked_x", s.motion.locked.x);
   a("locked_y", s.motion.locked.y);
 }
@@ -205,6 +213,9 @@ void examine(Examiner& j, const Simulation& s, const FaceStates& faces) {
   j.sized("zones.yielding", zones.yielding, many);
   for (const auto* of : {&zones.stored, &zones.stored_between, &zones.dissipated})
     j.sized("zones", *of, pairs);
+  const std::size_t wet = s.attached.loads.wet_zones.empty() ? 0 : many;
+  for (const auto* of : {&zones.pore, &zones.swelling, &zones.pore_work, &zones.pore_work_due})
+    j.sized("zones", *of, wet);
   j.sized("state.alive", s.motion.state.alive, nb);
   j.sized("state.turns", s.motion.state.turns, nb);
   j.sized("damping_work", s.accounts.damping_work.joules, nb);

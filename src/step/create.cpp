@@ -131,7 +131,7 @@ void place_blocks(Simulation& sim) {
   motion.state = initial_state(blocks, sim.scene->polygons);
   motion.forces = motion.on_contacts = zero_vectors(blocks);
   motion.zones = zones_at_start(sim.scene->zones, sim.scene->model, blocks, motion.state,
-                                motion.laws.rock_divided_by());
+                                water_in_pores(sim), motion.laws.rock_divided_by());
   motion.on_dashpots.assign(sim.attached.dashpots.points.size(), Vec2{});
   sim.accounts.damping_work.joules.assign(nb, 0.0);
   Pose& pose = motion.pose;

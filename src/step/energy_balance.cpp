@@ -78,7 +78,7 @@ EnergyBalance energy_balance(const Simulation& sim, const FaceMeasures& faces) {
               ordered_sum(damped.size(), [&](std::size_t i) { return damped[i]; });
   l.transfer = c.removed_transfer + over_faces(&FaceWork::transfer);
   l.step_change = -accounts.step_change_energy;
-  l.external = accounts.external_work;
+  l.external = accounts.external_work + work_of_pores(sim.motion.zones);
   l.contact += bolt_energy(bolts) + points.energy;
   l.friction += bolts.slipped + points.friction + dissipated_in_zones(sim.motion.zones);
   l.fracture += bolts.fractured;

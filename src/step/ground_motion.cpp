@@ -16,6 +16,14 @@ LoadsNow acting(const Simulation& sim) {
   return now;
 }
 
+PoreWater water_in_pores(const Simulation& sim) {
+  const Loads& loads = sim.attached.loads;
+  if (loads.wet_zones.empty()) return {};
+  LoadsNow now = loads_at(sim.scene->model, loads, sim.motion.state.time);
+  for (double& weight : now.weight) weight /= sim.scene->model.thickness;
+  return {&loads.wet_zones, std::move(now.rise), std::move(now.weight)};
+}
+
 Vec2 ground_velocity(const Simulation& sim) {
   const State& state = sim.motion.state;
   return sim.attached.ground.velocity +

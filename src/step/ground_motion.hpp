@@ -19,6 +19,8 @@ struct DashpotDrive {
 
 /// Loads and bolts as they act at n.
 LoadsNow acting(const Simulation& sim);
+/// The water in the pores of zones now.
+PoreWater water_in_pores(const Simulation& sim);
 
 /// Velocity of the ground at n, m/s.
 Vec2 ground_velocity(const Simulation& sim);

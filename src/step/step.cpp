@@ -56,7 +56,8 @@ void finish_step(Simulation& sim) {
       accounts.steps.smallest == 0.0 ? h : std::min(accounts.steps.smallest, h);
   accounts.steps.largest = std::max(accounts.steps.largest, h);
   accounts.steps.sum += h;
-  evaluate_zones(sim.scene->zones, sim.scene->blocks, state, h, sim.motion.zones);
+  evaluate_zones(sim.scene->zones, sim.scene->blocks, state, water_in_pores(sim), h,
+                 sim.motion.zones);
 }
 
 std::optional<Failure> inspect(const Simulation& sim) {

@@ -246,6 +246,10 @@ ZoneShape zone_shape(Vec2 a, Vec2 b, Vec2 c, double thickness) {
   return {area_gradients(a, b, c), 0.5 * twice * thickness, std::sqrt(std::abs(twice))};
 }
 
+double swelling_of(const ZoneShape& shape, const std::array<Vec2, 3>& x) {
+  return std::log(determinant(deformation_of(shape, x)));
+}
+
 ZoneState zone_at_start(const ZoneMaterial& material, const std::array<double, 4>& stress) {
   if (material.foliation && material.foliation->elastic)
     return transverse_at_start(*material.foliation, stress);

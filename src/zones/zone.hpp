@@ -40,6 +40,8 @@ struct ZoneShape {
   double width = 0.0;            ///< w of a band of shear in it, m: of a pair of such triangles
 };
 ZoneShape zone_shape(Vec2 a, Vec2 b, Vec2 c, double thickness);
+/// theta of a zone, its nodes at x.
+double swelling_of(const ZoneShape& shape, const std::array<Vec2, 3>& x);
 
 /// What is remembered of a zone.
 struct ZoneState {

@@ -250,11 +250,81 @@ void evaluate_group(const ZoneModel& model, const BlockSet& b, const State& s, d
   }
 }
 
+/// u of the zone that wet[q] is the first entry of, Pa.
+double pore_pressure(const PoreWater& water, const BlockSet& b, const Zones& all, std::size_t q) {
+  const std::vector<WetZone>& wet = *water.zones;
+  const std::array<Vec2, corners_of_zone> x = at_corners(b.meshes, all.place, wet[q].zone);
+  const double y = (x[0].y + x[1].y + x[2].y) / corners_of_zone;
+  double sum = 0.0;
+  for (std::size_t p = q; p < wet.size() && wet[p].zone == wet[q].zone; ++p) {
+    const std::size_t row = wet[p].water;
+    sum += water.weight[row] * std::max(0.0, wet[p].level + water.rise[row] - y);
+  }
+  return sum;
+}
+
+/// Calls body(zone, pressure) for the zones with water in their pores, of blocks that are alive.
+template <class Body>
+void for_wet_zones(const PoreWater& water, const BlockSet& b, const State& s, const Zones& all,
+                   Body body) {
+  if (!water.any()) return;
+  const std::vector<WetZone>& wet = *water.zones;
+  constexpr std::size_t cost = 20;  // ns
+  parallel_for(
+      wet.size(),
+      [&](std::size_t q) {
+        if (s.alive[wet[q].block] == 0 || (q > 0 && wet[q - 1].zone == wet[q].zone)) return;
+        body(wet[q].zone, pore_pressure(water, b, all, q));
+      },
+      cost);
+}
+
+/// The water in the pores at the places of the nodes.
+void change_pores(const ZoneModel& model, const BlockSet& b, const State& s, const PoreWater& water,
+                  Zones& all) {
+  for_wet_zones(water, b, s, all, [&](std::uint32_t z, double pressure) {
+    const double more = pressure - all.pore[z], before = all.swelling[z],
+                 now = swelling_of(model.shape[z], at_corners(b.meshes, all.place, z));
+    all.pore[z] = pressure;
+    all.swelling[z] = now;
+    all.state[z].locked -= more;
+    // Half of it belongs to the next step, as energies are those between two positions.
+    const double half = -0.25 * model.shape[z].volume * more * (before + now);
+    all.pore_work[z] += all.pore_work_due[z] + half;
+    all.pore_work_due[z] = half;
+  });
+}
+
 /// Stress at the start: xx, yy, zz, xy.
 std::array<double, 4> stress_at(const Model& model, const Material& material,
                                 const StressField& field, Vec2 at) {
   const Tensor t = field.at(at);
   return {t.xx, t.yy, out_of_plane_stress(model, material, t), t.xy};
+}
+
+/// The effective stresses of the model's initial stress, and what pairs lock of them.
+void begin_under_stress(const ZoneModel& zones, const Model& model, const BlockSet& b, Zones& all) {
+  const StressField field(model, b.origin);
+  for (std::size_t i = 0; i < b.size(); ++i) {
+    const Vec2 centre{b.centroid_x[i], b.centroid_y[i]};
+    for (std::uint32_t z = b.meshes.zone_begin[i]; z < b.meshes.zone_begin[i + 1]; ++z) {
+      Vec2 sum;
+      for (const std::uint32_t j : b.meshes.zone[z])
+        sum += Vec2{b.meshes.arm_x[j], b.meshes.arm_y[j]};
+      const auto material = static_cast<std::size_t>(b.material[i]);
+      std::array<double, 4> stress =
+          stress_at(model, model.materials[material], field, centre + sum / 3.0);
+      for (std::size_t c = 0; c < 3 && !all.pore.empty(); ++c) stress[c] += all.pore[z];
+      all.state[z] = zone_at_start(zones.material[material], stress);
+    }
+  }
+  for (const auto& [one, other] : zones.pair) {
+    if (other == no_partner) continue;
+    std::array<ZoneState, 2> both{all.state[one], all.state[other]};
+    lock_pressures({zones.shape[one], zones.shape[other]}, both);
+    all.state[one] = both[0];
+    all.state[other] = both[1];
+  }
 }
 
 }  // namespace
@@ -301,46 +371,36 @@ std::vector<ZoneMaterial> divided_strength(const ZoneModel& zones, double factor
 }
 
 Zones zones_at_start(const ZoneModel& zones, const Model& model, const BlockSet& b,
-                     const State& state, double factor) {
+                     const State& state, const PoreWater& water, double factor) {
   Zones all;
   all.material = divided_strength(zones, factor);
   const std::size_t many = zones.shape.size(), pairs = zones.pair.size();
+  if (many == 0) return all;
   all.state.resize(many);
   all.force.resize(many);
   all.stress.resize(many);
   all.yielding.resize(many);
   for (auto* of : {&all.stored, &all.stored_between, &all.dissipated}) of->assign(pairs, 0.0);
+  if (water.any()) {
+    for (auto* of : {&all.pore, &all.swelling, &all.pore_work, &all.pore_work_due})
+      of->assign(many, 0.0);
+  }
+  place_all_nodes(b, state, all);
   if (model.initial_stress) {
-    const StressField field(model, b.origin);
-    for (std::size_t i = 0; many > 0 && i < b.size(); ++i) {
-      const Vec2 centre{b.centroid_x[i], b.centroid_y[i]};
-      for (std::uint32_t z = b.meshes.zone_begin[i]; z < b.meshes.zone_begin[i + 1]; ++z) {
-        Vec2 sum;
-        for (const std::uint32_t j : b.meshes.zone[z])
-          sum += Vec2{b.meshes.arm_x[j], b.meshes.arm_y[j]};
-        const auto material = static_cast<std::size_t>(b.material[i]);
-        all.state[z] =
-            zone_at_start(zones.material[material],
-                          stress_at(model, model.materials[material], field, centre + sum / 3.0));
-      }
-    }
+    for_wet_zones(water, b, state, all, [&](std::uint32_t z, double u) { all.pore[z] = u; });
+    begin_under_stress(zones, model, b, all);
+    for (std::size_t z = 0; z < all.pore.size(); ++z) all.state[z].locked -= all.pore[z];
   }
-  for (const auto& [one, other] : zones.pair) {
-    if (other == no_partner) continue;
-    std::array<ZoneState, 2> both{all.state[one], all.state[other]};
-    lock_pressures({zones.shape[one], zones.shape[other]}, both);
-    all.state[one] = both[0];
-    all.state[other] = both[1];
-  }
-  evaluate_zones(zones, b, state, 0.0, all);
+  evaluate_zones(zones, b, state, {}, 0.0, all);
   all.stored_between = all.stored;
   return all;
 }
 
-void evaluate_zones(const ZoneModel& model, const BlockSet& b, const State& s, double h,
-                    Zones& zones) {
+void evaluate_zones(const ZoneModel& model, const BlockSet& b, const State& s,
+                    const PoreWater& water, double h, Zones& zones) {
   if (model.pair.empty()) return;
   place_all_nodes(b, s, zones);
+  change_pores(model, b, s, water, zones);
   parallel_for(
       model.group.size(), [&](std::size_t g) { evaluate_group(model, b, s, h, zones, g); },
       cost_of_pairs);
@@ -393,6 +453,10 @@ double stored_in_zones(const ZoneModel& model, const Zones& zones, std::size_t i
 
 double dissipated_in_zones(const Zones& zones) {
   return ordered_sum(zones.dissipated.size(), [&](std::size_t p) { return zones.dissipated[p]; });
+}
+
+double work_of_pores(const Zones& zones) {
+  return ordered_sum(zones.pore_work.size(), [&](std::size_t z) { return zones.pore_work[z]; });
 }
 
 std::array<double, 4> mean_stress(const BlockSet& b, const ZoneModel& model, const Zones& zones,

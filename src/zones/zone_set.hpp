@@ -42,19 +42,36 @@ struct Zones {
   std::vector<double> stored_between;         ///< [pairs] J, in the terms of the energy balance:
                                               ///< between the positions before and these
   std::vector<double> dissipated;             ///< [pairs] J, by plastic strain so far
-  std::vector<Vec2> place, rate;              ///< [mesh nodes] m and m/s
+  // Of the water in pores; empty without any.
+  std::vector<double> pore;           ///< [zones] u, Pa, part of ZoneState::locked
+  std::vector<double> swelling;       ///< [zones] ln det F
+  std::vector<double> pore_work;      ///< [zones] J, of the water so far, in the terms of the
+                                      ///< energy balance
+  std::vector<double> pore_work_due;  ///< [zones] J, which comes with the next step
+  std::vector<Vec2> place, rate;      ///< [mesh nodes] m and m/s
 };
-/// Undeformed and at rest, under the initial stress of the model, if it has one; strength divided
-/// by `factor`.
+
+/// Still water in pores at one time: on top of its effective stress a zone has the pressure
+///   u = sum gamma (level + rise - y)  where that is positive, y of its centroid,
+/// as a locked pressure -u that acts on ln det F (zone.hpp), so that it strains nothing by itself.
+/// As u changes by du the water does the work -V du ln det F.
+struct PoreWater {
+  const std::vector<WetZone>* zones = nullptr;  ///< null, or by zone
+  std::vector<double> rise, weight;             ///< [rows of Model::waters] m, N/m3
+  bool any() const { return zones != nullptr && !zones->empty(); }
+};
+
+/// Undeformed and at rest, under the initial stress of the model, if it has one, which includes the
+/// pore pressure (without one the water comes in the first step); strength divided by `factor`.
 Zones zones_at_start(const ZoneModel& zones, const Model& model, const BlockSet& blocks,
-                     const State& state, double factor);
+                     const State& state, const PoreWater& water, double factor);
 
 /// Evaluates the zones of the blocks that are alive at the positions x_{n+1} of a state, to which
 /// they have moved by h v from those of the last evaluation. With forces f = -grad W a leapfrog
 /// keeps, between x_n and x_{n+1}, what linear springs store by x_n K x_{n+1}/2,
 ///   (W_n + W_{n+1})/2 + (f_{n+1} - f_n) . h v/4.
-void evaluate_zones(const ZoneModel& model, const BlockSet& blocks, const State& state, double h,
-                    Zones& zones);
+void evaluate_zones(const ZoneModel& model, const BlockSet& blocks, const State& state,
+                    const PoreWater& water, double h, Zones& zones);
 
 /// The same terms at the start, where velocities are those half a step h (s) before: W + f . h v/2.
 void start_zones(const ZoneModel& model, const BlockSet& blocks, const State& state, double h,
@@ -65,10 +82,11 @@ void start_zones(const ZoneModel& model, const BlockSet& blocks, const State& st
 void set_zone_forces(const ZoneModel& model, const BlockSet& blocks, const Zones& zones,
                      Vec2 gravity, BodyVectors& forces, std::size_t begin, std::size_t end);
 
-/// What the zones of block i store in the terms of the energy balance, and what all zones have
-/// dissipated so far, J.
+/// What the zones of block i store in the terms of the energy balance, what all zones have
+/// dissipated so far, and the work of the water in their pores, J.
 double stored_in_zones(const ZoneModel& model, const Zones& zones, std::size_t i);
 double dissipated_in_zones(const Zones& zones);
+double work_of_pores(const Zones& zones);
 
 /// Mean Cauchy stress of the zones of block i by area: xx, yy, zz, xy, Pa.
 std::array<double, 4> mean_stress(const BlockSet& blocks, const ZoneModel& model,

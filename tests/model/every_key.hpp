@@ -341,6 +341,7 @@ density = 2750
 young = "20 GPa"
 poisson = 0.25
 zone_size = "0.4 m"
+pore_pressure = false
 yield = { friction_angle = 35, cohesion = "1 MPa", tensile_strength = 2e5, dilation_angle = 5, slip_distance = "8 mm", residual = { friction_angle = 30, cohesion = 0, dilation_angle = 0 } }
 foliation = { angle = 20, friction_angle = 25, cohesion = "0.1 MPa", tensile_strength = 1e4, dilation_angle = 3 }
 [materials.marl]

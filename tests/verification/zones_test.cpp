@@ -139,7 +139,7 @@ double highest_frequency(Simulation& sim) {
   const auto forces = [&](double step) {
     s.position = sim.motion.state.position;
     add(step * v, b, s.position, 0);
-    evaluate_zones(sim.scene->zones, b, s, 0.0, z);
+    evaluate_zones(sim.scene->zones, b, s, {}, 0.0, z);
     BodyVectors f = zero_vectors(b);
     set_zone_forces(sim.scene->zones, b, z, {}, f, 0, 1);
     Bolts bolts = sim.attached.bolts;

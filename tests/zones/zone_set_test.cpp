@@ -35,7 +35,7 @@ struct Rock : test::DrawnBlocks {
     masses = given_masses(blocks);
     zone_model = make_zones(model, blocks);
     state = initial_state(blocks, set);
-    zones = zones_at_start(zone_model, model, blocks, state, 1.0);
+    zones = zones_at_start(zone_model, model, blocks, state, {}, 1.0);
   }
   std::size_t many() const { return blocks.meshes.nodes_of(0); }
   BodyVector forces(Vec2 gravity = {}) {
@@ -43,7 +43,7 @@ struct Rock : test::DrawnBlocks {
     set_zone_forces(zone_model, blocks, zones, gravity, f, 0, 1);
     return vector_of(blocks, f, 0);
   }
-  void evaluate() { evaluate_zones(zone_model, blocks, state, 0.0, zones); }
+  void evaluate() { evaluate_zones(zone_model, blocks, state, {}, 0.0, zones); }
   /// The three nodes at X + G X.
   void strain(const Deformation& g) {
     for (std::size_t k = 0; k < nodes_per_block; ++k) {
@@ -208,7 +208,7 @@ TEST(ZoneSet, EnergyBetweenTwoSteps) {
   }
   for (std::size_t j = 0; j < o.many(); ++j)
     o.state.position.modes.add(j, h * o.state.velocity.modes[j]);
-  evaluate_zones(o.zone_model, o.blocks, o.state, h, o.zones);
+  evaluate_zones(o.zone_model, o.blocks, o.state, {}, h, o.zones);
   const BodyVector change = o.forces() - f;
   const double expected = 0.5 * (at_first + o.stored()) +
                           0.25 * h * dot(change, vector_of(o.blocks, o.state.velocity, 0));

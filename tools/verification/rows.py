@@ -362,4 +362,14 @@ ROWS = (
     Row(75, "A strip footing",
         "Half of a rough rigid strip of 2 m on rock without friction, c 100 kPa, pushed in by 20 mm; zones of 0.2 m.",
         "(2 + pi) c (Prandtl 1920), on the width and half a zone beside it."),
+    Row(76, "A slope under a lake that goes down",
+        "A slope of 2:1, 10 m high, phi 20 deg, c 10 kPa, 20 kN/m3, in zones of 1 m, with water in its pores and on its face: a level"
+        " lake and table up to the crest, 7 m lower, and none.",
+        "Griffiths and Lane (1999), by finite elements: 1.85, 1.30 and 1.40."),
+    Row(77, "A slope of clay",
+        "A slope of 1:2, 5 m high, of undrained clay of 20 kPa, with as much clay below its toe, in zones of 1 m.",
+        "Taylor's (1937) chart: c/(F gamma H) = 0.17."),
+    Row(78, "Joints with fracture energy",
+        "A plate of two halves, pulled apart or sheared, as blocks and in zones. Discs of polygons, pressed along their diameter.",
+        "G_I and G_II for each area of the joint. The strength of a body does not depend on its grains."),
 )
