@@ -190,11 +190,20 @@ void place_mesh_nodes(const BlockSet& b, const State& s, Picture& p) {
 
 void record_zones(const Simulation& sim, Picture& p) {
   const Zones& zones = sim.motion.zones;
+  const BlockSet& b = sim.scene->blocks;
   p.zones.reserve(zones.stress.size());
-  for (std::size_t z = 0; z < zones.stress.size(); ++z) {
-    const auto& [xx, yy, zz, xy] = zones.stress[z];
-    p.zones.push_back(
-        {xx, yy, zz, xy, zones.state[z].plastic_shear + zones.state[z].slipped, zones.yielding[z]});
+  for (std::size_t i = 0; b.meshes.any() && i < b.size(); ++i) {
+    const ZoneMaterial& rock = zones.material[static_cast<std::size_t>(b.material[i])];
+    for (std::uint32_t z = b.meshes.zone_begin[i]; z < b.meshes.zone_begin[i + 1]; ++z) {
+      const auto& [xx, yy, zz, xy] = zones.stress[z];
+      const ZoneState& state = zones.state[z];
+      const double slip = sim.scene->zones.shape[z].width * state.plastic_shear;
+      ZoneRecord r{xx, yy, zz, xy, state.plastic_shear + state.slipped, zones.yielding[z]};
+      if (has_strength(rock))
+        r.strength_factor =
+            std::min(strength_factor(rock, slip, state.stress), largest_strength_factor);
+      p.zones.push_back(r);
+    }
   }
 }
 
