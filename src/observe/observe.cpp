@@ -85,7 +85,7 @@ void add_crack(ContactRecord& r, const Simulation& sim, std::size_t k) {
   if (f.is(FaceFlag::softens, k)) {
     const FaceEnds damage = damage_of(f, sim.motion.laws, k);
     r.damage = 0.5 * (damage.a + damage.b);
-  } else if (f.is(FaceFlag::broken_in_tension, k) || f.is(FaceFlag::broken_in_shear, k)) {
+  } else if (f.is_broken(k)) {
     r.damage = 1.0;
     r.crack = f.is(FaceFlag::broken_in_shear, k) ? CrackMode::shear : CrackMode::tension;
   }
@@ -217,7 +217,8 @@ Picture picture_of(const Simulation& sim, const Instant& at) {
     if (at.state.alive[i]) p.blocks.push_back(block_record(sim, at.state, i));
   }
   for (std::size_t k = 0; k < sim.motion.contacts.size(); ++k) {
-    if (!is_closed_now(sim, k) && !has_opened(sim, k)) continue;
+    const bool there = is_closed_now(sim, k) || has_opened(sim, k);
+    if (!there && !sim.motion.contacts.is_broken(k)) continue;
     p.contacts.push_back(face_record(sim, face_row(sim, k)));
   }
   for (std::size_t k = 0; k < sim.point_contacts.size(); ++k) {

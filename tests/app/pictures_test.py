@@ -102,6 +102,27 @@ class Pictures(RampProgram):
         self.expect(2, "plot", "m", "--field", "stress", "-o", "line.csv")
         self.assertFalse((self.dir / "line.svg").exists())
 
+    def test_plot_draws_every_crack_however_wide(self):
+        """A row of blocks is pulled apart and one of them is pushed off sideways: all that has broken is recorded and drawn."""
+        model = "gravity = [0, 0]\n[materials.rock]\ndensity = 2500\nyoung = 1e10\npoisson = 0.2\n" \
+                "[joints.j]\nfriction_angle = 30\ncohesion = 2e5\ntensile_strength = 1e5\nfracture_energy = 5\nshear_fracture_energy = 5\n[contact]\njoint = 'j'\n" \
+                "[[block]]\nfixed = true\npolygon = [[0, 0], [1, 0], [1, 1], [0, 1]]\n" \
+                "[[block]]\nvelocity = [3, 0]\npolygon = [[1, 0], [2, 0], [2, 1], [1, 1]]\n" \
+                "[[block]]\nvelocity = [0, -3]\npolygon = [[0, -1], [1, -1], [1, 0], [0, 0]]\n" \
+                "[solver]\nduration = 0.2\n[output]\nevery = 0.1\n"
+        (self.dir / "c.toml").write_text(model)
+        self.expect(0, "run", "c.toml", "--quiet")
+        last = read_rows(self.dir / "c/history.csv")[-1]
+        rows = read_rows(self.dir / "c/joints.csv")
+        for mode in ("tension", "shear"):
+            self.assertEqual(sum(row["broken_by"] == mode for row in rows), int(last["cracks_" + mode]), mode)
+        self.assertEqual(int(last["cracks_tension"]), 2)
+        self.assertEqual(len(rows), 2)
+        self.assertGreater(min(float(row["opening"]) for row in rows), 0.3)
+        self.expect(0, "plot", "c", "--cracks", "--field", "none", "-o", "c.svg")
+        lines = re.findall('<path [^>]*stroke(?:: *|=")rgb\\(85%, ?20%, ?5%\\)[^>]*>', (self.dir / "c.svg").read_text())
+        self.assertEqual(len(lines), 3)  # and one in the legend
+
     def test_plot_keeps_bolts_apart_whatever_their_names(self):
         self.expect(0, "run", "m.toml", "--quiet")
         for names in (("1", "2"), ("0", "B"), ("B", "0")):
