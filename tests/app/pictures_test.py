@@ -123,6 +123,16 @@ class Pictures(RampProgram):
         lines = re.findall('<path [^>]*stroke(?:: *|=")rgb\\(85%, ?20%, ?5%\\)[^>]*>', (self.dir / "c.svg").read_text())
         self.assertEqual(len(lines), 3)  # and one in the legend
 
+    def test_the_mechanism_of_zones_shows_what_slides(self):
+        self.expect(0, "example", "clay-slope")
+        self.expect(0, "fos", "clay-slope.toml", "--set", "zones.size=2", "--set", "fos.tolerance=0.1", "-o", "clay-slope", "--quiet")
+        picture = (self.dir / "clay-slope/mechanism.svg").read_text(encoding="utf-8")
+        fills = re.findall('<path [^>]*fill-rule(?:: *|=")evenodd[^>]*?fill(?:: *|=")rgb\\(([^)]*)\\)', picture)
+        self.assertGreater(len(fills), 100)
+        self.assertGreater(len(set(fills)), 50)
+        factor = float(re.search("displacements drawn ([0-9.]+) times", picture)[1])
+        self.assertLess(factor * max(float(row["displacement"]) for row in read_rows(self.dir / "clay-slope/mechanism.csv")), 2)
+
     def test_plot_keeps_bolts_apart_whatever_their_names(self):
         self.expect(0, "run", "m.toml", "--quiet")
         for names in (("1", "2"), ("0", "B"), ("B", "0")):
