@@ -149,6 +149,56 @@ test('paints zones in the colour of their own value, deformed', async () => {
   await p.close();
 });
 
+test('draws joints that have broken by what has broken them', async () => {
+  const square = (x, y) => `[[${x}, ${y}], [${x + 1}, ${y}], [${x + 1}, ${y + 1}], [${x}, ${y + 1}]]`;
+  writeFileSync(path.join(folder, 'cracks.toml'), `gravity = [0, 0]
+[materials.rock]
+density = 2500
+young = 1e10
+poisson = 0.2
+[joints.j]
+friction_angle = 30
+cohesion = 2e5
+tensile_strength = 1e5
+fracture_energy = 5
+shear_fracture_energy = 5
+[contact]
+joint = "j"
+[solver]
+duration = 0.2
+[output]
+every = 0.1
+[[block]]
+fixed = true
+polygon = ${square(0, 0)}
+[[block]]
+velocity = [3, 0]
+polygon = ${square(1, 0)}
+`);
+  run('run', 'cracks.toml', '--quiet');
+  run('view', 'cracks');
+  const p = await page('cracks.html');
+  const drawn = () => p.evaluate(() => ({ count: edda.view.crackStrokes.count, ends: [...edda.view.crackStrokes.ends.slice(0, 4)], origin: edda.view.pose.origin }));
+  await p.keyboard.press('Home');
+  await p.waitForFunction(() => edda.shown === 0);
+  assert.equal((await drawn()).count, 0, 'nothing has broken at the start');
+  await p.keyboard.press('End');
+  await p.waitForFunction(() => edda.shown === edda.player.end);
+  const { count, ends, origin } = await drawn();
+  assert.equal(count, 1);
+  const [x, y] = [[ends[0], ends[2]], [ends[1], ends[3]]];
+  assert.ok(Math.abs(x[0] - x[1]) < 1e-6 && Math.abs(Math.abs(y[0] - y[1]) - 1) < 0.01, `${ends}`);
+  assert.ok(x[0] + origin[0] > 0.99, `${ends}`);
+  assert.deepEqual(await p.evaluate(() => [...edda.view.crackStrokes.colours.slice(0, 3)]), await p.evaluate(() => edda.view.theme.tension));
+  await p.locator('#cracks').uncheck();
+  await p.waitForFunction(() => !edda.stale);
+  assert.equal(await p.evaluate(() => edda.controls.cracks), false);
+  await p.close();
+  const plain = await page('cavern.html');
+  assert.ok(await plain.locator('#cracks').isHidden());
+  await plain.close();
+});
+
 test('has white at nothing, whatever the range', async () => {
   const p = await page('cavern.html');
   await choose(p, 'field', 'displacement.y');
