@@ -33,6 +33,13 @@ const pictures = [
     await page.mouse.move(400, 430);
     await page.mouse.wheel(0, -600);
   }],
+  ['view-zones', 'squeezing', async (page) => {
+    await page.keyboard.press('End');
+    await page.selectOption('#field', 'strength_factor');
+    await page.evaluate(() => edda.controls.flipMagnification(edda.results, edda.frame));
+    await page.mouse.move(375, 400);
+    await page.mouse.wheel(0, -600);
+  }],
 ];
 
 const browser = await launch(packages);

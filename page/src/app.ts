@@ -20,7 +20,7 @@ import { Player } from './ui/player';
 import { Plots } from './ui/plots';
 import { listenToPointer } from './ui/pointer';
 import { savePicture } from './ui/save';
-import { digitsOf, showValues, valuesOf } from './ui/selection';
+import { digitsOf, showValues, valuesOf, yieldsIn } from './ui/selection';
 import { css, overlayStyle, themeAtStart, type ThemeName, themes } from './ui/theme';
 import { showWaiting } from './ui/waiting';
 
@@ -41,6 +41,7 @@ export class App {
   /** Number of `frame`; the player may be ahead of it. */
   private shown = 0;
   private fitted = false;
+  /** The block or zone that was clicked. */
   selected = -1;
   private monitor = '';
   private stale = true;
@@ -53,7 +54,7 @@ export class App {
     document.head.append(Object.assign(document.createElement('style'), { textContent: uPlotStyle }));
     document.documentElement.dataset.theme = this.theme;
     const { run, mesh } = results;
-    this.values = new Float32Array(mesh.blocks);
+    this.values = new Float32Array(mesh.parts);
     this.frames = new Frames(source, mesh, run.absent);
     this.player = new Player(run.frames, this.frames, () => this.wake());
     this.view = new View(byId<HTMLCanvasElement>('blocks'), mesh, themes[this.theme]);
@@ -130,6 +131,7 @@ export class App {
       forces: controls.forces,
       usualForce: results.run.usual.force,
       usualPressure: results.run.usual.pressure,
+      cracks: controls.cracks,
       crosses: controls.crosses,
       usualStress: results.run.usual.stress,
       vectors: controls.vectors,
@@ -153,7 +155,9 @@ export class App {
       return;
     }
     const rows = valuesOf(results.run, results.mesh, frame, results.datums[frame.datum], selected);
-    const title = this.monitor === '' ? `Block ${results.mesh.id[selected]}` : `Monitor ${this.monitor}, in block ${results.mesh.id[selected]}`;
+    const block = `block ${results.mesh.id[selected]}`;
+    const inside = selected < results.mesh.blocks ? block : `a zone of ${block}`;
+    const title = this.monitor === '' ? inside[0].toUpperCase() + inside.slice(1) : `Monitor ${this.monitor}, in ${inside}`;
     showValues(frame.alive[selected] ? title : `${title}: excavated`, frame.alive[selected] ? rows : [], digitsOf(frame));
   }
 
@@ -220,6 +224,9 @@ export class App {
       if (drawn.length > 0) drawn[drawn.length - 1].cutAt = cutAt;
       strokes.push(...drawn);
     }
+    if (controls.cracks) {
+      strokes.push({ colour: css(theme.tension), text: 'broken in tension' }, { colour: css(theme.compression), text: 'broken in shear' });
+    }
     if (controls.crosses) {
       strokes.push({ colour: css(theme.compression), text: 'compression', perPixel: per('crosses'), unit: 'Pa' });
       strokes.push({ colour: css(theme.tension), text: 'tension', unit: 'Pa', cutAt: cut('stress') });
@@ -237,6 +244,7 @@ export class App {
   }
 
   private kinds(field: Field | undefined): [number, string][] {
+    if (field?.name === 'yields') return yieldsIn.map((name, k) => [k, `yields ${name}`.replace('yields no', 'does not yield')]);
     if (field?.name !== 'material') return [];
     const there = [...new Set(this.results.mesh.material)].sort((a, b) => a - b);
     return there.map((m) => [m, this.results.run.materials[m] ?? String(m)]);

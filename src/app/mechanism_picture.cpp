@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "app/common.hpp"
 #include "observe/observe.hpp"
 #include "report/plot.hpp"
+#include "report/shapes.hpp"
 #include "results/frames.hpp"
 
 namespace edda {
@@ -17,6 +19,13 @@ double round_scale(double x) {
   const double power = std::pow(10.0, std::floor(std::log10(x)));
   const double digit = x / power;
   return power * (digit >= 5.0 ? 5.0 : digit >= 2.0 ? 2.0 : 1.0);
+}
+
+/// Of the zones where there are any, which move apart as blocks do: root of the mean area, m.
+double zone_size(const Grid& blocks) {
+  const std::vector<double> areas = cell_areas(blocks);
+  return std::sqrt(std::accumulate(areas.begin(), areas.end(), 0.0) /
+                   static_cast<double>(areas.size()));
 }
 
 }  // namespace
@@ -42,7 +51,8 @@ Trouble draw_mechanism(const Model& model, const Simulation& moved, const Mechan
   for (const MovingBlock& b : mechanism.blocks) largest = std::max(largest, b.largest);
   PlotOptions options = options_of(model, moved.scene->blocks.size());
   options.subtitle = subtitle;
-  constexpr double shown = 0.5;  // of a block's size
+  constexpr double shown = 0.5;  // of a block's or a zone's size
+  if (moved.scene->blocks.meshes.any()) size = std::min(size, zone_size(shot.blocks));
   options.scale = round_scale(shown * size / largest);
   options.vectors = "displacement";
   options.whole_range = true;  // a small moving part is what the picture is to show

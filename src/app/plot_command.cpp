@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <memory>
 
+#include "app/along_picture.hpp"
 #include "app/common.hpp"
 #include "app/curve_picture.hpp"
 #include "app/plot_source.hpp"
@@ -41,6 +42,11 @@ int draw_histories(const PlotArguments& args, const std::string& path) {
   return finish(plot_history(source.picture, path), path);
 }
 
+int draw_line(const PlotArguments& args, const std::string& path) {
+  const Trouble trouble = draw_along(args, path);
+  return trouble ? refuse(*trouble) : finish({}, path);
+}
+
 int draw_frames(const PlotArguments& args, const std::string& path) {
   Result<PlotSource> read =
       std::filesystem::is_directory(args.source) ? from_folder(args) : from_model(args);
@@ -59,13 +65,15 @@ Trouble check(const PlotArguments& args) {
   const auto fault = [](const char* key, std::string problem, std::string remedy) {
     return Fault{{key, {}, 0, 0}, std::move(problem), std::move(remedy)};
   };
-  if (!args.output.empty() && !is_picture(ending_of(args.output))) {
+  const bool is_table = !args.along.empty() && ending_of(args.output) == ".csv";
+  if (!args.output.empty() && !is_picture(ending_of(args.output)) && !is_table) {
     return Fault{{{}, args.output, 0, 0}, "ends in none of .png .svg .pdf", "name the file so"};
   }
   std::vector<double> numbers = args.compare;
   numbers.insert(numbers.end(), args.range.begin(), args.range.end());
   numbers.insert(numbers.end(), args.window.begin(), args.window.end());
   numbers.insert(numbers.end(), args.times.begin(), args.times.end());
+  numbers.insert(numbers.end(), args.along.begin(), args.along.end());
   for (const auto& number : {args.time, args.scale}) numbers.push_back(number.value_or(0.0));
   if (!std::all_of(numbers.begin(), numbers.end(), [](double v) { return std::isfinite(v); }))
     return fault("edda plot", "was given a value that is no finite number", "give another one");
@@ -89,6 +97,13 @@ Trouble check(const PlotArguments& args) {
     return fault("--range", "is empty", "give LO,HI with LO below HI");
   if (const auto& w = args.window; !w.empty() && !(w[0] < w[2] && w[1] < w[3]))
     return fault("--window", "is empty", "give x0,y0,x1,y1 with x0 below x1 and y0 below y1");
+  if (!args.along.empty() && (args.scale || !args.window.empty()))
+    return fault("--along", "draws values over a distance", "leave out --scale and --window");
+  if (const auto& l = args.along; !l.empty() && l[0] == l[2] && l[1] == l[3])
+    return fault("--along", "has no length", "give x0,y0,x1,y1 of two points");
+  if (!args.along.empty() && !std::filesystem::is_directory(args.source))
+    return fault("--along", "shows results, and " + args.source + " is no folder of them",
+                 "run the model, and give the folder of its results");
   if (args.compare.size() == 1 || args.compare.size() > most_drawings) {
     return fault("--compare",
                  fmt::format("names {} {}", args.compare.size(),
@@ -105,6 +120,7 @@ int draw(const PlotArguments& args) {
     if (!has_curve(args.source)) return refuse(*draw_curve(args.source, path, args.title));
     return finish(draw_curve(args.source, path, args.title), path);
   }
+  if (!args.along.empty()) return draw_line(args, path);
   return args.history.empty() ? draw_frames(args, path) : draw_histories(args, path);
 }
 
@@ -129,12 +145,11 @@ std::string read_width(const std::string& text, PlotArguments& args) {
 }
 
 void add_what(CLI::App& command, PlotArguments& args) {
-  CLI::Option* const field =
-      command
-          .add_option("--field", args.field,
-                      "What to colour by (default: displacement; with --principal: none; of a "
-                      "model: its materials)")
-          ->type_name("FIELD");
+  command
+      .add_option("--field", args.field,
+                  "What to colour by (default: displacement; with --principal: none; of a "
+                  "model: its materials)")
+      ->type_name("FIELD");
   CLI::Option* const time = command
                                 .add_option("--time", args.time,
                                             "The frame nearest to this time in s (default: the "
@@ -148,26 +163,30 @@ void add_what(CLI::App& command, PlotArguments& args) {
           ->delimiter(',')
           ->allow_extra_args(false)
           ->excludes(time);
-  CLI::Option* const before =
-      command.add_flag("--before", args.before, "The first frame beside the one that is drawn")
-          ->excludes(compare);
-  CLI::Option* const vectors =
-      command
-          .add_option("--vectors", args.vectors,
-                      "Arrows at the blocks' centres: displacement or velocity")
-          ->check(CLI::IsMember({"displacement", "velocity"}));
-  CLI::Option* const forces = command.add_flag(
-      "--forces", args.forces, "Contact forces as arrows, and the pressure along each joint");
-  CLI::Option* const principal =
-      command.add_flag("--principal", args.principal,
-                       "Principal stresses: crosses at the blocks' centres, tension as arrows");
-  CLI::Option* const bolts = command.add_flag(
-      "--bolts", args.bolts, "Bolts, their width in proportion to their axial force");
-  CLI::Option* const relative =
-      command
-          .add_option("--relative-to", args.relative_to,
-                      "Displacements (and velocities) relative to a monitor, drawn unmoved")
-          ->type_name("MONITOR");
+  command.add_flag("--before", args.before, "The first frame beside the one that is drawn")
+      ->excludes(compare);
+  command
+      .add_option("--vectors", args.vectors,
+                  "Arrows at the centres of blocks or zones: displacement or velocity")
+      ->check(CLI::IsMember({"displacement", "velocity"}));
+  command.add_flag("--forces", args.forces,
+                   "Contact forces as arrows, and the pressure along each joint");
+  command.add_flag("--principal", args.principal,
+                   "Principal stresses: crosses at the centres of blocks or zones, tension as "
+                   "arrows");
+  command.add_flag("--bolts", args.bolts, "Bolts, their width in proportion to their axial force");
+  command.add_flag("--cracks", args.cracks,
+                   "Joints with fracture energy that have broken, in tension and in shear");
+  command
+      .add_option("--relative-to", args.relative_to,
+                  "Displacements (and velocities) relative to a monitor, drawn unmoved")
+      ->type_name("MONITOR");
+}
+
+/// What is drawn in the place of frames.
+void add_graphs(CLI::App& command, PlotArguments& args) {
+  const std::vector<const char*> of_frames{"--compare",   "--before", "--vectors", "--forces",
+                                           "--principal", "--bolts",  "--cracks"};
   CLI::Option* const history =
       command
           .add_option("--history", args.history,
@@ -182,11 +201,23 @@ void add_what(CLI::App& command, PlotArguments& args) {
                     "The curve of a ramp instead: what it varies against the monitors' "
                     "displacements")
           ->excludes(history);
-  for (CLI::Option* other : {field, time, compare, before, vectors, forces, principal, bolts}) {
-    history->excludes(other);
-    curve->excludes(other);
+  CLI::Option* const along =
+      command
+          .add_option("--along", args.along,
+                      "The values of --field (several: a,b) along a line instead, m; with -o "
+                      "FILE.csv as a table")
+          ->type_name("X0,Y0,X1,Y1")
+          ->delimiter(',')
+          ->expected(4)
+          ->excludes(history)
+          ->excludes(curve);
+  for (CLI::Option* graph : {history, curve, along}) {
+    for (const char* other : of_frames) graph->excludes(command.get_option(other));
   }
-  curve->excludes(relative);
+  for (CLI::Option* graph : {history, curve}) {
+    for (const char* other : {"--field", "--time"}) graph->excludes(command.get_option(other));
+  }
+  for (CLI::Option* graph : {curve, along}) graph->excludes(command.get_option("--relative-to"));
 }
 
 void add_how(CLI::App& command, PlotArguments& args) {
@@ -242,9 +273,12 @@ void add_plot(CLI::App& app, int& code) {
       "  edda plot slope --time 0.5 --field stress.yy -o stress.svg\n"
       "  edda plot slope --scale 200 --vectors velocity --forces\n"
       "  edda plot tunnel --principal --bolts -o tunnel.pdf\n"
+      "  edda plot disc --field none --cracks         joints that have broken, in tension and in "
+      "shear\n"
       "  edda plot slope --before --range 0,0.5       before and after, one scale\n"
       "  edda plot slope --history energy,drift       lines over time\n"
       "  edda plot slope --history crest.ux --times 0,0.5 --range 0,0.1\n"
+      "  edda plot tunnel --along 3,0,20,0 --field stress.xx,stress.yy\n"
       "  edda plot wall --curve                       what a ramp varied over displacements\n"
       "  edda plot slope.toml                         the blocks before the run\n\n"
       "Fields: " +
@@ -259,9 +293,11 @@ void add_plot(CLI::App& app, int& code) {
       ->type_name("DIR|MODEL");
   command
       ->add_option("-o,--output", args->output,
-                   "The picture, .png, .svg or .pdf (default: the source's stem + .png)")
+                   "The picture, .png, .svg or .pdf (default: the source's stem + .png); with "
+                   "--along also .csv")
       ->type_name("FILE");
   add_what(*command, *args);
+  add_graphs(*command, *args);
   add_how(*command, *args);
   add_overrides(*command, args->overrides);
   command->callback([args, &code] { code = draw(*args); });

@@ -102,7 +102,7 @@ Result<Snapshot> snapshot_of(const PlotArguments& args, const SeriesEntry& entry
   Snapshot shot{std::move(blocks.value())};
   shot.heading = fmt::format("t = {:.6g} s", entry.time);
   // Contacts take more memory than blocks, so they are read only where they are drawn.
-  if (args.forces || is_of_contacts(args.field)) {
+  if (args.forces || args.cracks || is_of_contacts(args.field)) {
     if (Result<Grid> contacts = read_vtu(folder + "/" + contacts_beside(entry.file));
         contacts.ok()) {
       shot.contacts = std::move(contacts.value());
@@ -140,6 +140,7 @@ void add_options(const PlotArguments& args, PlotOptions& options) {
   options.forces = args.forces;
   options.principal = args.principal;
   options.bolt_forces = args.bolts;
+  options.cracks = args.cracks;
   options.marks = !args.no_marks;
   options.whole_range = args.whole_range;
   options.scale = args.scale.value_or(1.0);
@@ -221,7 +222,7 @@ Result<PlotSource> from_folder(const PlotArguments& args) {
 
 Result<PlotSource> from_model(const PlotArguments& args) {
   if (args.time || !args.compare.empty() || args.before || args.bolts || args.principal ||
-      args.forces || !args.relative_to.empty() || is_of_contacts(args.field)) {
+      args.forces || args.cracks || !args.relative_to.empty() || is_of_contacts(args.field)) {
     return Fault{{{}, args.source, 0, 0},
                  "is a model, which has no times, stresses, contacts or loads yet",
                  "run it, and give the folder of its results"};

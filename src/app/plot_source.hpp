@@ -18,12 +18,14 @@ struct PlotArguments {
   std::vector<std::string> overrides, history;
   std::vector<double> compare;        ///< s
   std::vector<double> range, window;  ///< low, high; x0, y0, x1, y1
+  std::vector<double> along;          ///< x0, y0, x1, y1 of a line, m
   std::vector<double> times;          ///< s, first and last of a history
   std::optional<double> time, scale, dpi;
   double width = 0.0;  ///< mm; 0: not given
   int width_pixels = 0;
   double font = 8.0;
-  bool forces = false, principal = false, bolts = false, before = false, no_marks = false;
+  bool forces = false, principal = false, bolts = false, cracks = false, before = false,
+       no_marks = false;
   bool whole_range = false, curve = false;
 };
 

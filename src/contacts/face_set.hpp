@@ -127,6 +127,10 @@ struct FaceSet : RowTable<FaceProperties<RowColumn>, face_property_list<RowColum
     flags[k] = static_cast<std::uint16_t>(to ? flags[k] | bit : flags[k] & ~bit);
   }
   bool acts(std::size_t k) const { return is(FaceFlag::acts, k); }
+  /// Whether it has spent its fracture energy.
+  bool is_broken(std::size_t k) const {
+    return is(FaceFlag::broken_in_tension, k) || is(FaceFlag::broken_in_shear, k);
+  }
   bool leans(std::size_t k) const { return is(FaceFlag::leans, k); }
   BondState bond(std::size_t k) const {
     return is(FaceFlag::intact, k)    ? BondState::intact

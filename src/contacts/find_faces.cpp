@@ -18,13 +18,14 @@ struct Listed {
 };
 
 /// The faces of the pairs of edges `near`, and those of the old list that stay whatever lies
-/// between their edges: they carry, or are bonded, and both blocks are there. Both lists are
-/// sorted by their edges.
+/// between their edges: they carry, are bonded or have a crack, and both blocks are there. Both
+/// lists are sorted by their edges.
 std::vector<Listed> wanted_faces(const std::vector<EdgePair>& near, const FaceSet& old,
                                  const std::vector<std::uint8_t>& carry, const BlockSet& b,
                                  const State& state) {
   const auto stays = [&](std::size_t k) {
-    return (carry[k] != 0 || old.bonded(k)) && state.alive[b.vertex_block[old.edge[k]]] != 0 &&
+    return (carry[k] != 0 || old.bonded(k) || old.is_broken(k)) &&
+           state.alive[b.vertex_block[old.edge[k]]] != 0 &&
            state.alive[b.vertex_block[old.facing[k]]] != 0;
   };
   std::vector<Listed> all;

@@ -85,7 +85,7 @@ void add_crack(ContactRecord& r, const Simulation& sim, std::size_t k) {
   if (f.is(FaceFlag::softens, k)) {
     const FaceEnds damage = damage_of(f, sim.motion.laws, k);
     r.damage = 0.5 * (damage.a + damage.b);
-  } else if (f.is(FaceFlag::broken_in_tension, k) || f.is(FaceFlag::broken_in_shear, k)) {
+  } else if (f.is_broken(k)) {
     r.damage = 1.0;
     r.crack = f.is(FaceFlag::broken_in_shear, k) ? CrackMode::shear : CrackMode::tension;
   }
@@ -190,11 +190,20 @@ void place_mesh_nodes(const BlockSet& b, const State& s, Picture& p) {
 
 void record_zones(const Simulation& sim, Picture& p) {
   const Zones& zones = sim.motion.zones;
+  const BlockSet& b = sim.scene->blocks;
   p.zones.reserve(zones.stress.size());
-  for (std::size_t z = 0; z < zones.stress.size(); ++z) {
-    const auto& [xx, yy, zz, xy] = zones.stress[z];
-    p.zones.push_back(
-        {xx, yy, zz, xy, zones.state[z].plastic_shear + zones.state[z].slipped, zones.yielding[z]});
+  for (std::size_t i = 0; b.meshes.any() && i < b.size(); ++i) {
+    const ZoneMaterial& rock = zones.material[static_cast<std::size_t>(b.material[i])];
+    for (std::uint32_t z = b.meshes.zone_begin[i]; z < b.meshes.zone_begin[i + 1]; ++z) {
+      const auto& [xx, yy, zz, xy] = zones.stress[z];
+      const ZoneState& state = zones.state[z];
+      const double slip = sim.scene->zones.shape[z].width * state.plastic_shear;
+      ZoneRecord r{xx, yy, zz, xy, state.plastic_shear + state.slipped, zones.yielding[z]};
+      if (has_strength(rock))
+        r.strength_factor =
+            std::min(strength_factor(rock, slip, state.stress), largest_strength_factor);
+      p.zones.push_back(r);
+    }
   }
 }
 
@@ -208,7 +217,8 @@ Picture picture_of(const Simulation& sim, const Instant& at) {
     if (at.state.alive[i]) p.blocks.push_back(block_record(sim, at.state, i));
   }
   for (std::size_t k = 0; k < sim.motion.contacts.size(); ++k) {
-    if (!is_closed_now(sim, k) && !has_opened(sim, k)) continue;
+    const bool there = is_closed_now(sim, k) || has_opened(sim, k);
+    if (!there && !sim.motion.contacts.is_broken(k)) continue;
     p.contacts.push_back(face_record(sim, face_row(sim, k)));
   }
   for (std::size_t k = 0; k < sim.point_contacts.size(); ++k) {

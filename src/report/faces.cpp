@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <utility>
 
@@ -41,36 +42,39 @@ Vec2 upper_side(Vec2 along) {
   return dot(across, up) < 0.0 ? -across : across;
 }
 
-/// Displacement of a block, m, as a function of its present position.
-struct Displacement {
-  Vec2 from;
-  AffineField field;  ///< of the distance from this point
+/// An edge of a block with the displacements of its ends, m.
+struct MovedEdge {
+  Vec2 p, q, of_p, of_q;
 };
-Displacement displacement_of(const Grid& blocks, const BlockShape& shape,
-                             const std::vector<Vec2>& points) {
+std::vector<MovedEdge> moved_edges(const Grid& blocks, const BlockShape& shape,
+                                   const std::vector<Vec2>& points) {
   const Field* u = blocks.point_field("displacement");
-  if (u == nullptr) return {};
-  const auto of_point = [](const std::vector<double>& values, std::int64_t point) {
+  std::vector<MovedEdge> edges;
+  if (u == nullptr) return edges;
+  const auto of_point = [&](std::int64_t point) {
     const auto at = 3 * static_cast<std::size_t>(point);
-    return Vec2{values[at], values[at + 1]};
+    return Vec2{u->values[at], u->values[at + 1]};
   };
-  std::vector<std::int64_t> corner;
-  for (const auto& [first, second] : shape.outline) corner.push_back(first);
-  std::sort(corner.begin(), corner.end());
-  corner.erase(std::unique(corner.begin(), corner.end()), corner.end());
-  const auto at = [&](std::int64_t point) {
-    return static_cast<std::size_t>(std::lower_bound(corner.begin(), corner.end(), point) -
-                                    corner.begin());
-  };
-  const Vec2 from = centre_of(blocks, shape, points);
-  return {from,
-          mean_field(
-              corner.size(), shape.outline.size(),
-              [&](std::size_t k) {
-                return std::pair{at(shape.outline[k].first), at(shape.outline[k].second)};
-              },
-              [&](std::size_t v) { return points[static_cast<std::size_t>(corner[v])] - from; },
-              [&](std::size_t v) { return of_point(u->values, corner[v]); })};
+  for (const auto& [first, second] : shape.outline)
+    edges.push_back({points[static_cast<std::size_t>(first)],
+                     points[static_cast<std::size_t>(second)], of_point(first), of_point(second)});
+  return edges;
+}
+
+/// Displacement of a point on the outline.
+Vec2 displacement_at(Vec2 at, const std::vector<MovedEdge>& edges) {
+  Vec2 moved;
+  double least = std::numeric_limits<double>::infinity();
+  for (const MovedEdge& e : edges) {
+    const double off = distance_to_segment(at, e.p, e.q);
+    if (off >= least) continue;
+    least = off;
+    const Vec2 along = e.q - e.p;
+    const double size = dot(along, along),
+                 part = size > 0.0 ? std::clamp(dot(at - e.p, along) / size, 0.0, 1.0) : 0.0;
+    moved = (1.0 - part) * e.of_p + part * e.of_q;
+  }
+  return moved;
 }
 
 }  // namespace
@@ -104,14 +108,14 @@ std::vector<DrawnFace> drawn_faces(const Grid& contacts, const Grid& blocks, dou
   const Field *j = contacts.cell_field("block_j"), *id = blocks.cell_field("id");
   if (scale == 1.0 || j == nullptr || id == nullptr) return faces;
   const std::vector<Vec2> points = drawn_points(blocks, 1.0);
-  std::map<double, Displacement> of_block;
+  std::map<double, std::vector<MovedEdge>> of_block;
   for (const BlockShape& shape : block_shapes(blocks))
-    of_block.emplace(id->values[shape.first_cell], displacement_of(blocks, shape, points));
+    of_block.emplace(id->values[shape.first_cell], moved_edges(blocks, shape, points));
   for (std::size_t c = 0; c < faces.size(); ++c) {
     const auto found = of_block.find(j->values[c]);
     if (found == of_block.end()) continue;
-    const auto& [from, field] = found->second;
-    for (Vec2* end : {&faces[c].a, &faces[c].b}) *end += (scale - 1.0) * field.at(*end - from);
+    for (Vec2* end : {&faces[c].a, &faces[c].b})
+      *end += (scale - 1.0) * displacement_at(*end, found->second);
   }
   return faces;
 }

@@ -315,7 +315,8 @@ class HistoryPage {
                     {.size = f_, .align = Align::centre});
     }
     if (!labels) return;
-    canvas_->text("time (s)", {0.5 * (frame.low.x + frame.high.x), frame.high.y + 2.75 * f_},
+    canvas_->text(typeset(picture_.across),
+                  {0.5 * (frame.low.x + frame.high.x), frame.high.y + 2.75 * f_},
                   {.size = f_, .align = Align::centre});
   }
 

@@ -19,7 +19,8 @@ struct StageSpan {
 
 struct HistoryPicture {
   std::string title;
-  std::vector<double> time;  ///< s, of the rows
+  std::vector<double> time;         ///< s, of the rows; or what `across` says
+  std::string across = "time (s)";  ///< the axis of all panels
   std::vector<HistoryPanel> panels;
   std::vector<StageSpan> stages;  ///< may be empty
   std::optional<Vec2> span{};     ///< s, first and last that are shown; empty: all

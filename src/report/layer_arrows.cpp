@@ -20,14 +20,6 @@ double raster(const PlotScene& s) {
   return 1.6 * s.font / s.view.scale;
 }
 
-std::vector<std::size_t> shown_shapes(const PlotScene& s, std::vector<Vec2>& centres) {
-  centres.clear();
-  for (const BlockShape& shape : s.shapes) {
-    centres.push_back(mark_place(s.grid(), shape, s.points));
-  }
-  return thinned(centres, raster(s));
-}
-
 double side_of(const PlotScene& s, const BlockShape& shape) {
   double twice = 0.0;
   for (const auto& [a, b] : shape.outline) {
@@ -36,16 +28,51 @@ double side_of(const PlotScene& s, const BlockShape& shape) {
   return std::sqrt(0.5 * std::abs(twice));
 }
 
+/// A block, or a zone of one whose zones have values of their own.
+struct MarkedPart {
+  Vec2 at;
+  std::size_t cell;
+  double side;  ///< root of its area, m
+};
+
+Vec2 middle_of(const PlotScene& s, std::size_t cell) {
+  const std::size_t from = s.grid().begin(cell), to = static_cast<std::size_t>(s.grid().ends[cell]);
+  Vec2 sum;
+  for (std::size_t k = from; k < to; ++k)
+    sum += s.points[static_cast<std::size_t>(s.grid().corners[k])];
+  return sum / static_cast<double>(to - from);
+}
+
+/// Of parts that lie close together some.
+std::vector<MarkedPart> marked_parts(const PlotScene& s, const Field& field) {
+  const std::vector<double> areas = cell_areas(s.grid());
+  const auto value = [&](std::size_t cell) {
+    return field.values.begin() + static_cast<std::ptrdiff_t>(cell * field.components);
+  };
+  std::vector<MarkedPart> all, shown;
+  for (const BlockShape& shape : s.shapes) {
+    const std::size_t first = shape.first_cell, end = shape.end_cell;
+    bool one = true;
+    for (std::size_t c = first; one && c < end; ++c)
+      one = std::equal(value(first), value(first + 1), value(c));
+    if (one) all.push_back({mark_place(s.grid(), shape, s.points), first, side_of(s, shape)});
+    for (std::size_t c = first; !one && c < end; ++c)
+      all.push_back({middle_of(s, c), c, std::sqrt(areas[c])});
+  }
+  std::vector<Vec2> centres;
+  for (const MarkedPart& part : all) centres.push_back(part.at);
+  for (const std::size_t i : thinned(centres, raster(s))) shown.push_back(all[i]);
+  return shown;
+}
+
 std::vector<Arrow> block_arrows(const PlotScene& s, const std::string& name) {
   std::vector<Arrow> arrows;
   const Field* field = s.grid().cell_field(name);
   if (field == nullptr || field->components < 2) return arrows;
-  std::vector<Vec2> centres;
-  for (const std::size_t i : shown_shapes(s, centres)) {
-    const double* v = field->values.data() + s.shapes[i].first_cell * field->components;
-    const bool fixed = is_fixed(s.grid(), s.shapes[i].first_cell);
-    const double side = fixed ? 0.0 : side_of(s, s.shapes[i]);
-    arrows.push_back({centres[i], {v[0], v[1]}, side * side});
+  for (const MarkedPart& part : marked_parts(s, *field)) {
+    const double* v = field->values.data() + part.cell * field->components;
+    const double side = is_fixed(s.grid(), part.cell) ? 0.0 : part.side;
+    arrows.push_back({part.at, {v[0], v[1]}, side * side});
   }
   return arrows;
 }
@@ -117,7 +144,7 @@ Principal principal_of(const double* stress) {
 struct StressCross {
   Vec2 at;
   Principal stress;
-  double room = 0.0;  ///< side of its block, m
+  double room = 0.0;  ///< side of its block or zone, m
 };
 
 /// Value below which `part` of them lie.
@@ -132,12 +159,10 @@ std::vector<StressCross> stress_crosses(const PlotScene& s) {
   std::vector<StressCross> crosses;
   const Field* stress = s.grid().cell_field("stress");
   if (stress == nullptr) return crosses;
-  std::vector<Vec2> centres;
-  for (const std::size_t i : shown_shapes(s, centres)) {
-    const std::size_t cell = s.shapes[i].first_cell;
-    if (is_fixed(s.grid(), cell) || !is_inside(s, centres[i])) continue;
-    crosses.push_back({centres[i], principal_of(stress->values.data() + cell * stress->components),
-                       side_of(s, s.shapes[i])});
+  for (const MarkedPart& part : marked_parts(s, *stress)) {
+    if (is_fixed(s.grid(), part.cell) || !is_inside(s, part.at)) continue;
+    crosses.push_back(
+        {part.at, principal_of(stress->values.data() + part.cell * stress->components), part.side});
   }
   return crosses;
 }

@@ -165,13 +165,13 @@ void draw_blocks(Canvas& canvas, const PlotScene& s, const ColourScale& scale, b
 
 namespace {
 
-/// Lines along the faces that touch, the largest values on top.
+/// Lines along the faces that touch and open ones with a value, the largest values on top.
 void draw_face_field(Canvas& canvas, const PlotScene& s, const ColourScale& scale) {
   const std::vector<DrawnFace>& faces = s.faces;
   const std::vector<double>& values = s.shot.field.values;
   std::vector<std::size_t> order;
   for (std::size_t c = 0; c < faces.size(); ++c) {
-    if (!faces[c].open && std::isfinite(values[c])) order.push_back(c);
+    if ((!faces[c].open || values[c] != 0.0) && std::isfinite(values[c])) order.push_back(c);
   }
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
     return std::abs(values[a]) < std::abs(values[b]);
@@ -215,6 +215,19 @@ void draw_contact_field(Canvas& canvas, const PlotScene& s, const ColourScale& s
     cairo_fill_preserve(cr);
     canvas.colour(ink::line);
     cairo_stroke(cr);
+  }
+}
+
+void draw_cracks(Canvas& canvas, const PlotScene& s) {
+  const Field* by = s.shot.contacts ? s.shot.contacts->cell_field("broken_by") : nullptr;
+  if (by == nullptr || s.faces.empty()) return;
+  for (const auto& [mode, colour] :
+       {std::pair{crack_in_shear, ink::compression}, std::pair{crack_in_tension, ink::tension}}) {
+    canvas.colour(colour);
+    for (std::size_t c = 0; c < s.faces.size(); ++c) {
+      if (by->values[c] == mode)
+        canvas.line(s.view.at(s.faces[c].a), s.view.at(s.faces[c].b), joint_width);
+    }
   }
 }
 

@@ -281,7 +281,7 @@ void Legend::draw_ticks(Canvas& canvas, double left, const Box& bar, double fact
 void Legend::draw_key(Canvas& canvas, const LegendKey& key, double left, double top) const {
   const double reference = key.scale.reference, length = key.scale.per_unit * reference;
   const bool load = key.sign == Sign::bolt_load;
-  const bool plain = key.sign == Sign::bolt || key.sign == Sign::joint;
+  const bool plain = key.sign == Sign::bolt || key.sign == Sign::joint || key.sign == Sign::cracks;
   KeyRows rows(canvas, font_, left, top, load || plain ? 2.4 * font_ : length);
   rows.title(key.name);
   const std::string value = reference > 0.0 ? quantity(reference, key.unit) : "none";
@@ -305,6 +305,10 @@ void Legend::draw_key(Canvas& canvas, const LegendKey& key, double left, double 
       break;
     case Sign::joint:
       rows.line("slip or open", ink::joint, joint_width);
+      break;
+    case Sign::cracks:
+      rows.line("in tension", ink::tension, joint_width);
+      rows.line("in shear", ink::compression, joint_width);
       break;
     case Sign::bolt:
     case Sign::bolt_load:

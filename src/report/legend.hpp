@@ -13,12 +13,13 @@ namespace edda {
 
 /// A sample line with its meaning.
 struct LegendKey {
-  enum class Sign { vector, force, pressure, stress, bolt, bolt_load, joint };
+  enum class Sign { vector, force, pressure, stress, bolt, bolt_load, joint, cracks };
   Sign sign = Sign::vector;
   std::string name;  ///< "velocity"
   std::string unit;  ///< "m/s"
   ArrowScale scale{};
-  bool also_red = false;  ///< for bolts: some have yielded; for pressures: some are tensile
+  bool also_red = false;  ///< for bolts: some have yielded; for pressures: some are tensile; of
+                          ///< cracks
 };
 
 class Legend {

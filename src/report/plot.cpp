@@ -82,6 +82,7 @@ std::vector<LegendKey> keys_of(std::span<const Snapshot> shots, const PlotOption
     keys.push_back({Sign::stress, "principal stress", "Pa", for_legend(whole, longest)});
   }
   if (!options.joints.empty()) keys.push_back({Sign::joint, "joints", "", {}});
+  if (options.cracks) keys.push_back({Sign::cracks, "broken joints", "", {}, true});
   if (options.bolt_forces) {
     keys.push_back({Sign::bolt_load, "force of bolts", "N", scales.bolts, any_yielded(shots)});
   } else if (any_yielded(shots)) {
@@ -183,6 +184,7 @@ void draw_scene(Canvas& canvas, const PlotScene& s, const PlotOptions& options,
   draw_blocks(canvas, s, colours, options.outlines);
   draw_contact_field(canvas, s, colours);
   draw_joints(canvas, s, options);
+  if (options.cracks) draw_cracks(canvas, s);
   if (options.principal) draw_stresses(canvas, s, scales.stresses);
   if (!options.vectors.empty()) draw_vectors(canvas, s, options.vectors, scales.vectors);
   if (options.forces) {

@@ -58,6 +58,7 @@ struct PlotOptions {
   bool forces = false;     ///< contact forces as arrows
   bool principal = false;  ///< principal stresses as crosses at block centres
   double least_stress = 0.0;  ///< Pa; where none is larger they are rounding and are not drawn
+  bool cracks = false;        ///< faces that have broken, in tension and in shear
   bool bolt_forces = false;   ///< bolts as wide as their axial force
   bool outlines = true;       ///< of the blocks
   bool marks = true;          ///< monitors and convergence lines

@@ -26,7 +26,10 @@ inline constexpr Colour monitor{0.80, 0.05, 0.45}, bolt{0.05, 0.25, 0.65}, joint
 
 inline constexpr double pressure_line = 0.5;  ///< about the pressures on joints, pt
 inline constexpr double pressure_fill = 0.4;  ///< their opacity
-inline constexpr double joint_width = 1.6;    ///< of PlotOptions::joints, pt
+inline constexpr double joint_width = 1.6;    ///< of PlotOptions::joints and cracks, pt
+
+/// The field broken_by of faces by its numbers.
+inline constexpr double crack_in_tension = 1.0, crack_in_shear = 2.0;
 
 /// One drawing.
 struct PlotScene {
@@ -77,6 +80,8 @@ double round_below(double largest);
 void draw_blocks(Canvas& canvas, const PlotScene& scene, const ColourScale& scale, bool outlines);
 void draw_contact_field(Canvas& canvas, const PlotScene& scene, const ColourScale& scale);
 void draw_joints(Canvas& canvas, const PlotScene& scene, const PlotOptions& options);
+/// Lines along the faces that have broken, by what has broken them.
+void draw_cracks(Canvas& canvas, const PlotScene& scene);
 
 /// Principal stresses as crosses; none where all are below `least`, Pa.
 ArrowScale stress_scale(const std::vector<PlotScene>& scenes, double least);

@@ -73,6 +73,8 @@ constexpr std::array recipes{
            first},
     Recipe{"plastic_strain", "plastic_strain", "plastic strain", "", numbers, false, first},
     Recipe{"yields", "yields", "whether the rock yields", "", kinds, false, first},
+    Recipe{"strength_factor", "strength_factor", "strength factor of the rock", "", numbers, false,
+           first},
     Recipe{"normal_force", "normal_force", "normal force of contacts", "N", numbers, true, first},
     Recipe{"shear_force", "shear_force", "shear force of contacts", "N", numbers, true, first},
     Recipe{"opening", "opening", "opening of contacts", "m", numbers, true, first},
@@ -82,6 +84,8 @@ constexpr std::array recipes{
            numbers, true, first, true},
     Recipe{"shear_stress", "shear_stress", "shear stress on joints", "Pa", numbers, true, first,
            true},
+    Recipe{"damage", "damage", "part of the strength of joints that cracks have taken", "", numbers,
+           true, first, true},
 };
 
 const Recipe* recipe_of(const std::string& name) {

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <memory>
@@ -84,15 +86,28 @@ class Fields {
   RowAt row_at_;
 };
 
-/// The row of a cell in the picture's blocks, and its zone or no_id.
+/// The row of a cell in the picture's blocks, and its zone or no_id with the points of it.
 struct CellRow {
   std::uint32_t block, zone;
+  std::array<Id, corners_of_zone> points{};
 };
 
 /// What a cell has of its zone, or of its block.
 struct CellStress {
   double xx, yy, zz, xy;
 };
+struct CellMotion {
+  Vec2 displacement, velocity;
+};
+CellMotion motion_of(const Picture& p, const CellRow& row) {
+  if (row.zone == no_id) return {p.blocks[row.block].displacement, p.blocks[row.block].velocity};
+  CellMotion mean;
+  for (const Id point : row.points) {
+    mean.displacement += Vec2{p.ux[point], p.uy[point]} / corners_of_zone;
+    mean.velocity += Vec2{p.vx[point], p.vy[point]} / corners_of_zone;
+  }
+  return mean;
+}
 
 void add_block_fields(std::vector<FieldSource>& into, const Picture& picture,
                       std::vector<CellRow> row_of_cell) {
@@ -105,8 +120,9 @@ void add_block_fields(std::vector<FieldSource>& into, const Picture& picture,
   f.whole("id", [](const B& b) { return b.id; });
   f.whole("material", [](const B& b) { return b.material_index; });
   f.whole("fixed", [](const B& b) { return b.fixed; });
-  f.vector("displacement", [](const B& b) { return b.displacement; });
-  f.vector("velocity", [](const B& b) { return b.velocity; });
+  Fields moved(into, n, [rows, &picture](std::size_t k) { return motion_of(picture, (*rows)[k]); });
+  moved.vector("displacement", [](const CellMotion& m) { return m.displacement; });
+  moved.vector("velocity", [](const CellMotion& m) { return m.velocity; });
   f.number("rotation", [](const B& b) { return b.rotation; });
   f.number("omega", [](const B& b) { return b.omega; });
   Fields own(into, n, [rows, &picture](std::size_t k) {
@@ -133,6 +149,7 @@ void add_block_fields(std::vector<FieldSource>& into, const Picture& picture,
     });
     zone.number("plastic_strain", [](const ZoneRecord& z) { return z.plastic_strain; });
     zone.whole("yields", [](const ZoneRecord& z) { return z.yields; });
+    zone.number("strength_factor", [](const ZoneRecord& z) { return z.strength_factor; });
   }
   f.number("overstress", [](const B& b) { return b.overstress; });
 }
@@ -177,6 +194,9 @@ GridSource block_source(const BlockCells& cells, const Picture& picture) {
       const bool triangle = end - first > 1 || cells.zone[c] != no_id;
       g.types.push_back(triangle ? cell_type::triangle : cell_type::polygon);
       row_of_cell.push_back({static_cast<std::uint32_t>(row), cells.zone[c]});
+      if (cells.zone[c] != no_id)
+        std::copy_n(&cells.corner[cells.end[c] - corners_of_zone], corners_of_zone,
+                    row_of_cell.back().points.begin());
     }
   }
   add_block_fields(source.cell_fields, picture, std::move(row_of_cell));
@@ -226,6 +246,8 @@ GridSource contact_source(const Picture& picture) {
   f.number("shear_stress", [](const C& c) { return c.shear_stress; });
   f.number("normal_stress_a", [](const C& c) { return c.normal_stress_a; });
   f.number("normal_stress_b", [](const C& c) { return c.normal_stress_b; });
+  f.number("damage", [](const C& c) { return c.damage; });
+  f.whole("broken_by", [](const C& c) { return static_cast<std::int32_t>(c.crack); });
   f.number("x_a", [](const C& c) { return c.a.x; });
   f.number("y_a", [](const C& c) { return c.a.y; });
   f.number("x_b", [](const C& c) { return c.b.x; });

@@ -27,8 +27,8 @@ BlockCells block_cells(const BlockSet& blocks);
 
 /// Cell fields id material fixed displacement velocity rotation omega stress principal_stress,
 /// point fields displacement velocity. stress: XX YY ZZ XY YZ XZ; principal_stress: the larger and
-/// the smaller in the plane, then the one across it. Pa. With zones also plastic_strain and
-/// yields; their stresses are their own. The picture must outlive the source.
+/// the smaller in the plane, then the one across it. Pa. With zones also plastic_strain,
+/// yields and strength_factor; their stresses are their own. The picture must outlive the source.
 GridSource block_source(const BlockCells& cells, const Picture& picture);
 /// The same in memory.
 Grid block_grid(const BlockCells& cells, const Picture& picture);

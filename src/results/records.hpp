@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <string_view>
 #include <vector>
 
@@ -58,11 +59,16 @@ struct ContactRecord {
   CrackMode crack = CrackMode::unbroken;
 };
 
+/// Larger ones are written as this.
+inline constexpr double largest_strength_factor = 10.0;
+
 /// A zone of a meshed block.
 struct ZoneRecord {
   double sxx = 0.0, syy = 0.0, szz = 0.0, sxy = 0.0;  ///< Pa
   double plastic_strain = 0.0;  ///< accumulated e1 - e3, and slip on the foliation
   int yields = 0;  ///< at this time: 1 in shear, 2 in tension, 3 along the foliation; 0: not
+  /// By which Mohr's circle may grow until the rock yields; none where it has no strength.
+  double strength_factor = std::numeric_limits<double>::quiet_NaN();
 };
 
 /// Everything at one time.

@@ -16,13 +16,17 @@
 //   then the columns of the blocks, n values each:
 //     d.x d.y | A.xx A.xy A.yx A.yy | velocity.x velocity.y | omega | rotation |
 //     stress.xx .yy .zz .xy | overstress
+//   where any block is zoned, then of zoned blocks alive
+//     of their vertices: displacement.x .y since the datum | velocity.x .y
+//     of their cells: stress.xx .yy .zz .xy | plastic_strain | strength_factor, -1 where
+//     the rock has none, and u8 yields
 //   d and A: of the displacement since the datum; where the block was at the datum says that. With
 //   16 bits A is times the block's reach, m, so that the rotation of small blocks does not cost
 //   large ones precision then the contacts, sorted by the row of block i:
 //     varint [m] row of block i, less that before; zigzag [m] row of block j less that of i;
-//     varint [m] edge of it; u8 [m] state; and the columns
+//     varint [m] edge of it; u8 [m] state; u8 [m] broken_by; and the columns
 //     along_a along_b closed | normal_force shear_force | opening | slip |
-//     normal_stress_a normal_stress_b | normal_stress | shear_stress
+//     normal_stress_a normal_stress_b | normal_stress | shear_stress | damage
 //   along: where on the edge the ends of the overlap lie, 0 to 1; closed: fraction of it that
 //   carries
 //
@@ -105,6 +109,24 @@ std::vector<double> column(const Grid& g, const char* name, std::size_t k,
   return values;
 }
 
+/// The same of blocks: the mean over the area of zoned ones.
+std::vector<double> block_column(const ViewMesh& mesh, const ViewBlocks& in, const Grid& g,
+                                 const char* name, std::size_t k,
+                                 const std::vector<double>& areas) {
+  std::vector<double> values = column(g, name, k, in.cell);
+  const Field* field = g.cell_field(name);
+  for (std::size_t i = 0; field != nullptr && i < values.size(); ++i) {
+    if (mesh.zoned[in.row[i]] == 0) continue;
+    double sum = 0.0, area = 0.0;
+    for (std::size_t c = in.cell[i]; c < in.end[i]; ++c) {
+      sum += areas[c] * field->values[field->components * c + k];
+      area += areas[c];
+    }
+    if (area > 0.0) values[i] = sum / area;
+  }
+  return values;
+}
+
 /// Rounding to steps q of A times the reach moves a vertex by up to q/2 for each of x and y: with
 /// half the step of d it is right to a whole one.
 void add_motions(Bytes& bytes, const std::vector<BlockMotion>& motions, ViewPrecision precision,
@@ -124,11 +146,13 @@ void add_motions(Bytes& bytes, const std::vector<BlockMotion>& motions, ViewPrec
   add_group(bytes, a, precision, motion_steps, 0.5 * largest_of(d) / motion_steps);
 }
 
-void add_fields(Bytes& bytes, const Grid& g, const std::vector<std::size_t>& cells,
+void add_fields(Bytes& bytes, const ViewMesh& mesh, const ViewBlocks& in, const Grid& g,
                 ViewPrecision precision) {
+  const std::vector<double> areas = cell_areas(g);
   const auto group = [&](const char* name, std::initializer_list<std::size_t> components) {
     Columns columns;
-    for (const std::size_t k : components) columns.push_back(column(g, name, k, cells));
+    for (const std::size_t k : components)
+      columns.push_back(block_column(mesh, in, g, name, k, areas));
     add_group(bytes, columns, precision, value_steps);
   };
   group("velocity", {0, 1});
@@ -141,6 +165,42 @@ void add_fields(Bytes& bytes, const Grid& g, const std::vector<std::size_t>& cel
 Vec2 point_value(const std::vector<double>& values, std::int64_t point) {
   const auto at = 3 * static_cast<std::size_t>(point);
   return {values[at], values[at + 1]};
+}
+
+/// Values of a point field at the vertices of zoned blocks, x and y.
+Columns vertex_columns(const ViewMesh& mesh, const ViewBlocks& in, const Grid& g,
+                       const char* name) {
+  const Field* field = g.point_field(name);
+  Columns columns(2);
+  for (const std::size_t row : in.row) {
+    if (mesh.zoned[row] == 0) continue;
+    for (std::size_t v = mesh.begin[row]; v < mesh.begin[row + 1]; ++v) {
+      const Vec2 value = field == nullptr ? Vec2{} : point_value(field->values, mesh.point[v]);
+      columns[0].push_back(value.x);
+      columns[1].push_back(value.y);
+    }
+  }
+  return columns;
+}
+
+void add_zones(Bytes& bytes, const ViewMesh& mesh, const ViewBlocks& in, const Grid& g,
+               ViewPrecision precision) {
+  add_group(bytes, vertex_columns(mesh, in, g, "displacement"), precision, motion_steps);
+  add_group(bytes, vertex_columns(mesh, in, g, "velocity"), precision, value_steps);
+  std::vector<std::size_t> cells;
+  for (std::size_t i = 0; i < in.row.size(); ++i) {
+    for (std::size_t c = in.cell[i]; mesh.zoned[in.row[i]] != 0 && c < in.end[i]; ++c)
+      cells.push_back(c);
+  }
+  Columns stress;
+  for (const std::size_t k : {0, 1, 2, 3}) stress.push_back(column(g, "stress", k, cells));
+  add_group(bytes, stress, precision, value_steps);
+  add_group(bytes, {column(g, "plastic_strain", 0, cells)}, precision, value_steps);
+  std::vector<double> factor = column(g, "strength_factor", 0, cells);
+  for (double& v : factor) v = std::isnan(v) ? -1.0 : v;
+  add_group(bytes, {factor}, precision, value_steps);
+  for (const double yields : column(g, "yields", 0, cells))
+    bytes.u8(static_cast<std::uint8_t>(yields));
 }
 
 /// A contact of the frame by rows of the mesh, and the ends of its overlap on an edge of block j.
@@ -231,6 +291,8 @@ void add_contacts(Bytes& bytes, const std::vector<Touch>& touches, const Grid& c
   for (const Touch& t : touches) cells.push_back(t.cell);
   const std::vector<double> state = column(contacts, "state", 0, cells);
   for (const double s : state) bytes.u8(static_cast<std::uint8_t>(s));
+  for (const double mode : column(contacts, "broken_by", 0, cells))
+    bytes.u8(static_cast<std::uint8_t>(mode));
   std::vector<double> opening = column(contacts, "opening", 0, cells);
   for (std::size_t k = 0; k < opening.size(); ++k) {
     if (precision == ViewPrecision::whole16 && state[k] != 0.0) opening[k] = 0.0;
@@ -247,6 +309,7 @@ void add_contacts(Bytes& bytes, const std::vector<Touch>& touches, const Grid& c
   group({"normal_stress_a", "normal_stress_b"});
   group({"normal_stress"});
   group({"shear_stress"});
+  group({"damage"});
 }
 
 /// The displacement since the datum.
@@ -257,14 +320,32 @@ BlockMotion displacement_of(const ViewMesh& mesh, std::size_t row, const Grid& g
                       [&](std::size_t v) { return point_value(u->values, mesh.point[v]); });
 }
 
-/// From the first frame to the datum.
-BlockMotion datum_of(const ViewMesh& mesh, std::size_t row, const Grid& g) {
+/// Of a vertex of block `row` from the first frame to the datum.
+Vec2 moved_to_datum(const ViewMesh& mesh, std::size_t row, const Grid& g, std::size_t v) {
   const Field* u = g.point_field("displacement");
-  return block_motion(mesh, row, [&](std::size_t v) {
-    Vec2 start = point_value(g.points, mesh.point[v]);
-    if (u != nullptr) start = start - point_value(u->values, mesh.point[v]);
-    return (start - mesh.centre[row]) - mesh.vertex[v];
-  });
+  Vec2 start = point_value(g.points, mesh.point[v]);
+  if (u != nullptr) start = start - point_value(u->values, mesh.point[v]);
+  return (start - mesh.centre[row]) - mesh.vertex[v];
+}
+BlockMotion datum_of(const ViewMesh& mesh, std::size_t row, const Grid& g) {
+  return block_motion(mesh, row, [&](std::size_t v) { return moved_to_datum(mesh, row, g, v); });
+}
+
+bool any_zoned(const ViewMesh& mesh) {
+  return std::any_of(mesh.zoned.begin(), mesh.zoned.end(), [](auto zoned) { return zoned != 0; });
+}
+
+/// Takes over the vertices of a zoned block; whether any has another datum than before.
+bool move_vertices(const ViewMesh& mesh, std::size_t row, const Grid& g, double rounding,
+                   ViewDatum& datum) {
+  bool other = false;
+  for (std::size_t v = mesh.begin[row]; v < mesh.begin[row + 1]; ++v) {
+    const Vec2 moved = moved_to_datum(mesh, row, g, v);
+    if (norm(moved - datum.moved[v]) <= rounding) continue;
+    datum.moved[v] = moved;
+    other = true;
+  }
+  return other;
 }
 
 /// Largest distance of the vertices of a block between two motions, m.
@@ -280,10 +361,27 @@ double apart(const ViewMesh& mesh, std::size_t row, const BlockMotion& a, const 
 
 }  // namespace
 
-std::string datum_bytes(const ViewDatum& datum) {
+std::string datum_bytes(const ViewMesh& mesh, const ViewDatum& datum) {
   Bytes bytes;
   add_motions(bytes, datum.motion, ViewPrecision::single, {});
+  Columns moved(2);
+  for (std::size_t row = 0; !datum.moved.empty() && row < mesh.size(); ++row) {
+    for (std::size_t v = mesh.begin[row]; mesh.zoned[row] != 0 && v < mesh.begin[row + 1]; ++v) {
+      moved[0].push_back(datum.moved[v].x);
+      moved[1].push_back(datum.moved[v].y);
+    }
+  }
+  add_group(bytes, moved, ViewPrecision::single, motion_steps);
   return bytes.text();
+}
+
+std::vector<std::size_t> valued_cells(const ViewMesh& mesh, const ViewBlocks& in) {
+  std::vector<std::size_t> cells;
+  for (std::size_t i = 0; i < in.row.size(); ++i) {
+    const std::size_t end = mesh.zoned[in.row[i]] != 0 ? in.end[i] : in.cell[i] + 1;
+    for (std::size_t c = in.cell[i]; c < end; ++c) cells.push_back(c);
+  }
+  return cells;
 }
 
 Result<ViewBlocks> blocks_in(const ViewMesh& mesh, const Grid& blocks) {
@@ -292,11 +390,15 @@ Result<ViewBlocks> blocks_in(const ViewMesh& mesh, const Grid& blocks) {
   ViewBlocks in;
   const Field* id = blocks.cell_field("id");
   for (std::size_t c = 0; id != nullptr && c < blocks.cell_count(); ++c) {
-    if (c > 0 && id->values[c] == id->values[c - 1]) continue;
+    if (c > 0 && id->values[c] == id->values[c - 1]) {
+      ++in.end.back();
+      continue;
+    }
     const std::size_t row = mesh.row_of(static_cast<std::int32_t>(id->values[c]));
     if (row == mesh.size() || (!in.row.empty() && row <= in.row.back())) return other;
     in.row.push_back(row);
     in.cell.push_back(c);
+    in.end.push_back(c + 1);
   }
   return in;
 }
@@ -308,9 +410,12 @@ bool find_datum(const ViewMesh& mesh, const Grid& blocks, const ViewBlocks& in,
     found = *before;
   } else {
     found.motion.assign(mesh.size(), {});
+    if (any_zoned(mesh)) found.moved.assign(mesh.vertex.size(), {});
   }
   bool other = before == nullptr;
   for (const std::size_t row : in.row) {
+    if (mesh.zoned[row] != 0 && move_vertices(mesh, row, blocks, rounding * mesh.reach(row), found))
+      other = true;
     const BlockMotion m = datum_of(mesh, row, blocks);
     if (apart(mesh, row, m, found.motion[row]) <= rounding * mesh.reach(row)) continue;
     found.motion[row] = m;
@@ -339,7 +444,8 @@ std::string frame_bytes(const ViewMesh& mesh, const ViewBlocks& in, const Grid& 
     reaches.push_back(mesh.reach(row));
   }
   add_motions(bytes, motions, precision, reaches);
-  add_fields(bytes, blocks, in.cell, precision);
+  add_fields(bytes, mesh, in, blocks, precision);
+  if (any_zoned(mesh)) add_zones(bytes, mesh, in, blocks, precision);
   if (contacts != nullptr) add_contacts(bytes, touches, *contacts, precision);
   return bytes.text();
 }

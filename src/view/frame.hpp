@@ -1,5 +1,5 @@
 // One frame of the replay page, packed: six numbers per block for its motion, nine for its
-// velocity, rotation and stress, and the contacts by edge.
+// velocity, rotation and stress, the nodes and stresses of zones, and the contacts by edge.
 #pragma once
 
 #include <cstdint>
@@ -21,13 +21,19 @@ enum class ViewPrecision : std::uint32_t { whole16 = 16, single = 32 };
 /// Displacements count from where the blocks were at a datum: the start, or a reset.
 struct ViewDatum {
   std::vector<BlockMotion> motion;  ///< [nb] since the first frame
+  std::vector<Vec2> moved;          ///< [nv] likewise, of the vertices of zoned blocks; else empty
 };
 
 /// Blocks of a frame.
 struct ViewBlocks {
-  std::vector<std::size_t> row;   ///< of the mesh, rising
-  std::vector<std::size_t> cell;  ///< the first of each; it has all values of its block
+  std::vector<std::size_t> row;  ///< of the mesh, rising
+  std::vector<std::size_t>
+      cell;                      ///< the first of each, which has all values of a block of one cell
+  std::vector<std::size_t> end;  ///< after its last one
 };
+
+/// The cells that have values of their own: all of zoned blocks, the first of others.
+std::vector<std::size_t> valued_cells(const ViewMesh& mesh, const ViewBlocks& in);
 
 /// Faults: a block that the first frame does not have, or other vertices.
 Result<ViewBlocks> blocks_in(const ViewMesh& mesh, const Grid& blocks);
@@ -36,8 +42,9 @@ Result<ViewBlocks> blocks_in(const ViewMesh& mesh, const Grid& blocks);
 bool find_datum(const ViewMesh& mesh, const Grid& blocks, const ViewBlocks& in,
                 const ViewDatum* before, ViewDatum& found);
 
-/// Six f32 columns d.x d.y A.xx A.xy A.yx A.yy, as in a frame.
-std::string datum_bytes(const ViewDatum& datum);
+/// Six f32 columns d.x d.y A.xx A.xy A.yx A.yy, as in a frame, then two of the vertices of zoned
+/// blocks.
+std::string datum_bytes(const ViewMesh& mesh, const ViewDatum& datum);
 
 /// `datum`: number of the current one. `contacts` may be null.
 std::string frame_bytes(const ViewMesh& mesh, const ViewBlocks& in, const Grid& blocks,

@@ -22,6 +22,8 @@ void add_block(const Grid& g, const BlockShape& shape, const std::vector<Vec2>& 
   mesh.material.push_back(static_cast<std::int32_t>(whole(g, "material", shape.first_cell)));
   mesh.fixed.push_back(whole(g, "fixed", shape.first_cell) != 0.0 ? 1 : 0);
   mesh.centre.push_back(centre);
+  const bool any_zones = g.cell_field("plastic_strain") != nullptr;
+  mesh.zoned.push_back(any_zones && shape.end_cell - shape.first_cell > 1 ? 1 : 0);
   std::map<std::int64_t, std::uint32_t> vertex_of;
   const auto vertex = [&](std::int64_t point) {
     const auto [at, is_new] =
@@ -92,7 +94,9 @@ std::string mesh_bytes(const ViewMesh& mesh) {
   for (const auto& e : mesh.edges) {
     for (const std::uint32_t v : e) bytes.u32(v);
   }
-  for (const std::uint8_t f : mesh.fixed) bytes.u8(f);
+  for (const auto* flags : {&mesh.fixed, &mesh.zoned}) {
+    for (const std::uint8_t f : *flags) bytes.u8(f);
+  }
   return bytes.text();
 }
 

@@ -1,5 +1,6 @@
 // The blocks of the replay page as they lie in the first frame. A block is placed by its
-// mean deformation, so that from then on six numbers per block and frame place all its vertices.
+// mean deformation, so that from then on six numbers per block and frame place all its vertices; in
+// a run with zones the vertices of blocks of several cells have displacements of their own.
 #pragma once
 
 #include <array>
@@ -26,6 +27,7 @@ struct ViewMesh {
   std::vector<std::array<std::uint32_t, 3>> triangles;  ///< of vertices
   std::vector<std::array<std::uint32_t, 2>> edges;      ///< of vertices, counter-clockwise
   std::vector<std::size_t> edge_begin;                  ///< [nb + 1] first edge of each block
+  std::vector<std::uint8_t> zoned;                      ///< [nb] its triangles are cells
 
   std::size_t points = 0;  ///< points of every frame's grid, those of excavated blocks included
 
@@ -38,8 +40,8 @@ struct ViewMesh {
 ViewMesh view_mesh(const Grid& first);
 
 /// The format for the page (read by page/src/data/mesh.ts): nb, nv, triangles, edges as u32;
-/// centres f64; vertices f32; then by u32 id, material, first vertex; fixed u8; triangles and edges
-/// u32.
+/// centres f64; vertices f32; then by u32 id, material, first vertex; triangles and edges u32;
+/// fixed and zoned u8.
 std::string mesh_bytes(const ViewMesh& mesh);
 
 /// Motion of a block: u(X) = d + A (X - c), c its centre and X in the first frame.

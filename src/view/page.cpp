@@ -86,7 +86,7 @@ Result<PageReport> fill(WholeFile& file, ViewRun& run, const std::vector<SeriesE
         run.take(series[k], is_last ? ViewPrecision::single : plan.precision);
     if (!frame.ok()) return frame.faults();
     if (run.datums().size() > datums)
-      add(chunk(fmt::format("datum-{}", datums), datum_bytes(run.datums().back())));
+      add(chunk(fmt::format("datum-{}", datums), datum_bytes(run.mesh(), run.datums().back())));
     const std::string packed = chunk(fmt::format("frame-{}", report.frames++), frame.value());
     if (!is_last) frames += packed.size();
     add(packed);

@@ -56,7 +56,7 @@ class Answers {
     if (!run_ || !run_->is_still_there() || run != name_of_run()) return gone(reply);
     if (name == "mesh") return give(mesh_bytes(run_->mesh()), reply);
     if (const auto k = number_after("datum-", name, run_->datums().size()))
-      return give(datum_bytes(run_->datums()[*k]), reply);
+      return give(datum_bytes(run_->mesh(), run_->datums()[*k]), reply);
     if (const auto k = number_after("frame-", name, run_->frames())) {
       const Result<std::string> frame = run_->again(*k, ViewPrecision::single);
       if (frame.ok()) return give(frame.value(), reply);

@@ -123,7 +123,8 @@ Result<ViewRun> ViewRun::open(std::string folder, ViewNames names) {
   if (!first.ok()) return first.faults();
   run.mesh_ = view_mesh(first.value());
   run.stamp_ = run.stamp_of(series.value().front());
-  for (const char* name : {"omega", "rotation", "overstress"}) {
+  for (const char* name :
+       {"omega", "rotation", "overstress", "plastic_strain", "yields", "strength_factor"}) {
     if (first.value().cell_field(name) == nullptr) run.absent_.emplace_back(name);
   }
   if (!run.names_.judges_rock && !std::count(run.absent_.begin(), run.absent_.end(), "overstress"))
@@ -179,6 +180,9 @@ void ViewRun::widen_ranges(const Opened& frame) {
   widen(forces_, forces);
   if (grids.contacts) widen_pressures(pressures_, tension_, *grids.contacts);
   const Grid* contacts = grids.contacts ? &*grids.contacts : nullptr;
+  if (const Field* by = contacts == nullptr ? nullptr : contacts->cell_field("broken_by"))
+    cracked_ = cracked_ || std::any_of(by->values.begin(), by->values.end(),
+                                       [](double mode) { return mode != 0.0; });
   const Field* fixed = grids.blocks.cell_field("fixed");
   const std::vector<double> areas = cell_areas(grids.blocks);
   for (const std::string& name : all_fields()) {
@@ -264,7 +268,7 @@ std::string ViewRun::header(const std::string& served_as) const {
   add_marks(json, "convergences", names_.convergences);
   json.key("frames").open_list();
   for (const Taken& t : taken_) json.value(t.entry.time);
-  json.close().pair("datums", datums_.size());
+  json.close().pair("datums", datums_.size()).pair("cracked", cracked_);
   json.key("fields").open_list();
   for (const std::string& name : all_fields()) {
     const FieldText about = field_text(name);

@@ -109,6 +109,7 @@ class ViewRun {
   ViewSizes forces_;                         ///< of closed contacts, N
   ViewSizes pressures_;   ///< at ends of closed faces, Pa; the largest in compression
   double tension_ = 0.0;  ///< the largest there, Pa
+  bool cracked_ = false;  ///< joints have broken
   ViewSizes stresses_;    ///< principal, of free blocks, Pa
 };
 

@@ -75,6 +75,21 @@ double distance_from_yield(const HoekBrown& r, double s1, double s3) {
   return (s1 - s3 - to.deviator + to.slope * (s1 - to.s1)) / (1.0 + to.slope);
 }
 
+double largest_radius(const HoekBrown& r, double centre) {
+  // By planes that touch the surface: each leaves the domain whole, so that the radius falls.
+  const double cut = cut_off(r) - centre;
+  constexpr int most = 60;
+  double radius = cut;
+  for (int n = 0; n < most; ++n) {
+    const Touch to = touch_at(r, centre + radius);
+    const double next = (to.deviator - to.slope * (centre - to.s1)) / (2.0 + to.slope),
+                 change = next - radius;
+    radius = next;
+    if (std::abs(change) <= 1e-14 * r.strength) break;
+  }
+  return std::min(radius, cut);
+}
+
 bool within(const HoekBrown& r, const Principal& s) {
   const double most = std::max({s[0], s[1], s[2]}), least = std::min({s[0], s[1], s[2]});
   if (!(most <= cut_off(r))) return false;

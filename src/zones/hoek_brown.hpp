@@ -29,6 +29,10 @@ HoekBrownConstants hoek_brown_constants(double index, double intact, double dist
 /// Distance of s1 and s3 from the surface along s1, Pa; positive outside.
 double distance_from_yield(const HoekBrown& rock, double s1, double s3);
 
+/// Radius of the circle about a centre (s1 + s3)/2 that touches the surface or ends at the cut-off,
+/// Pa; negative where the centre lies beyond it.
+double largest_radius(const HoekBrown& rock, double centre);
+
 /// Whether stresses in any order lie within the surface and the cut-off.
 bool within(const HoekBrown& rock, const Principal& s);
 

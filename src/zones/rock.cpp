@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace edda {
 namespace {
 
-constexpr double degree = std::numbers::pi / 180.0;
+constexpr double degree = std::numbers::pi / 180.0,
+                 unlimited = std::numeric_limits<double>::infinity();
 
 YieldSurface surface_of(const RockMass& rock) {
   const double dilation = degree * rock.dilation_angle.value_or(0.0);
@@ -85,6 +87,32 @@ struct Divide {
   }
 };
 
+/// The largest circle about a centre within a surface, Pa.
+struct LargestRadius {
+  double centre;
+  double operator()(std::monostate) const { return unlimited; }
+  double operator()(const MohrCoulombSurface& s) const {
+    return std::min(
+        0.5 * (s.planes[0].limit - (s.planes[0].normal[0] + s.planes[0].normal[2]) * centre),
+        s.planes[1].limit - centre);
+  }
+  double operator()(const HoekBrown& s) const { return largest_radius(s, centre); }
+};
+
+/// How many times the stress that is used goes into the available one, within rounding (Pa).
+double part_of(double available, double used, double rounding) {
+  if (!(used > -rounding)) return unlimited;
+  return std::max((available + rounding) / (used + rounding), 0.0);
+}
+
+/// What `body` makes of the surface after a slip (m).
+template <class Body>
+auto on_surface(const ZoneMaterial& rock, double slip, Body body) {
+  if (!yields(rock.residual) || !(slip > 0.0)) return body(rock.peak);
+  if (slip >= rock.slip) return body(rock.residual);
+  return body(std::visit(Between{slip / rock.slip}, rock.peak, rock.residual));
+}
+
 }  // namespace
 
 ZoneMaterial zone_material(const Material& m) {
@@ -118,14 +146,35 @@ bool stays_elastic(const ZoneMaterial& rock, double slip, const Principal& stres
 }
 
 ReturnedStress return_to(const ZoneMaterial& rock, double slip, const Principal& trial) {
-  const auto on = [&](const YieldSurface& surface) {
+  return on_surface(rock, slip, [&](const YieldSurface& surface) {
     if (const auto* s = std::get_if<MohrCoulombSurface>(&surface))
       return return_to(*s, rock.elastic, trial);
     return return_to(std::get<HoekBrown>(surface), rock.elastic, trial);
-  };
-  if (!yields(rock.residual) || !(slip > 0.0)) return on(rock.peak);
-  if (slip >= rock.slip) return on(rock.residual);
-  return on(std::visit(Between{slip / rock.slip}, rock.peak, rock.residual));
+  });
+}
+
+double strength_factor(const ZoneMaterial& rock, double slip, const std::array<double, 4>& stress) {
+  const auto [xx, yy, zz, xy] = stress;
+  const double centre = 0.5 * (xx + yy), radius = std::hypot(0.5 * (xx - yy), xy),
+               rounding = 1e-13 * (rock.elastic.lambda + 2.0 * rock.elastic.mu);
+  double factor = unlimited;
+  if (yields(rock.peak)) {
+    const double most = std::max(centre + radius, zz), least = std::min(centre - radius, zz);
+    const double available = on_surface(rock, slip, [&](const YieldSurface& surface) {
+      return std::visit(LargestRadius{0.5 * (most + least)}, surface);
+    });
+    factor = std::min(factor, part_of(available, 0.5 * (most - least), rounding));
+  }
+  if (rock.foliation && rock.foliation->strength) {
+    const FoliationStrength& s = *rock.foliation->strength;
+    const auto [x, y] = rock.foliation->along;
+    const double across = xx * y * y + yy * x * x - 2.0 * xy * x * y - centre,
+                 along = std::abs((yy - xx) * x * y + xy * (x * x - y * y));
+    factor = std::min(
+        {factor, part_of(s.cohesion - centre * s.friction, along + across * s.friction, rounding),
+         part_of(s.tension - centre, across, rounding)});
+  }
+  return factor;
 }
 
 }  // namespace edda

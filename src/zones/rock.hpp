@@ -48,4 +48,10 @@ bool stays_elastic(const ZoneMaterial& rock, double slip, const Principal& stres
 /// Return of stresses in any order to the strength of the rock after a slip (m); it yields.
 ReturnedStress return_to(const ZoneMaterial& rock, double slip, const Principal& trial);
 
+/// By how much Mohr's circle of the largest and smallest principal stress may grow about its centre
+/// until the rock yields after a slip (m) in shear or tension, and that in the plane until its
+/// foliation slips or opens; the smaller. It is 1 where the rock yields, and infinite without a
+/// limit. Stress: of a zone, as seen from it: xx, yy, zz, xy, Pa.
+double strength_factor(const ZoneMaterial& rock, double slip, const std::array<double, 4>& stress);
+
 }  // namespace edda

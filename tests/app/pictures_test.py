@@ -42,6 +42,97 @@ class Pictures(RampProgram):
         self.expect(0, "plot", "m", "--history", "M", "-o", "h.pdf")
         self.assertEqual((self.dir / "h.pdf").read_bytes()[:5], b"%PDF-")
 
+    def along(self, folder, line, fields):
+        self.expect(0, "plot", folder, "--along", line, "--field", fields, "-o", "line.csv")
+        rows = read_rows(self.dir / "line.csv")
+        self.assertEqual(list(rows[0]), ["distance", "x", "y", "length", "block", *fields.split(",")])
+        return [{name: float(value) for name, value in row.items()} for row in rows]
+
+    def test_plot_along_a_column_has_the_weight_above(self):
+        rock = "[materials.rock]\ndensity = 2500\nyoung = 1e9\npoisson = 0.0\n[joints.j]\nfriction_angle = 30\n[contact]\njoint = 'j'\n"
+        rest = "[[stage]]\nuntil = 'equilibrium'\nratio = 1e-4\n"
+        blocks = "".join(f"[[block]]\npolygon = [[0, {y}], [2, {y}], [2, {y + 1}], [0, {y + 1}]]\n" for y in range(6))
+        floor = "[[block]]\nfixed = true\npolygon = [[-1, -1], [3, -1], [3, 0], [-1, 0]]\n"
+        (self.dir / "w.toml").write_text(rock + floor + blocks + rest)
+        self.expect(0, "run", "w.toml", "--quiet")
+        rows = self.along("w", "1,6.5,1,0", "stress.yy,displacement.y")
+        self.assertEqual([row["block"] for row in rows], [6, 5, 4, 3, 2, 1])
+        for k, row in enumerate(rows):
+            self.assertAlmostEqual(row["distance"], k + 1, delta=0.01)
+            self.assertAlmostEqual(row["stress.yy"] / (2500 * 9.81 * (k + 0.5)), -1, delta=5e-3)
+        zones = "[domain]\noutline = [[0, 0], [2, 0], [2, 6], [0, 6]]\n[zones]\nsize = 0.5\n" \
+                "[[boundary]]\nsides = ['left', 'right', 'bottom']\ntype = 'roller'\n"
+        (self.dir / "z.toml").write_text(rock + zones + rest)
+        self.expect(0, "run", "z.toml", "--quiet")
+        rows = self.along("z", "0.9,6,0.9,0", "stress.yy")
+        self.assertGreater(len(rows), 15)
+        self.assertAlmostEqual(sum(row["length"] for row in rows), 6, delta=0.01)
+        for row in rows:
+            self.assertAlmostEqual(row["stress.yy"], -2500 * 9.81 * row["distance"], delta=2500 * 9.81 * 0.3)
+        mean = sum(row["length"] * row["stress.yy"] for row in rows) / 6
+        self.assertAlmostEqual(mean / (2500 * 9.81 * 3), -1, delta=0.02)
+
+    def test_plot_along_the_springline_has_kirschs_stresses(self):
+        model = "gravity = [0, 0]\n[materials.rock]\ndensity = 2500\nyoung = 1e10\npoisson = 0.2\n[joints.j]\nfriction_angle = 30\n[contact]\njoint = 'j'\n" \
+                "[domain]\noutline = [[-12, -12], [12, -12], [12, 12], [-12, 12]]\n" \
+                "[[opening]]\nname = 'o'\nshape = { kind = 'circle', at = [0, 0], width = 2, segments = 48 }\n" \
+                "[initial_stress]\nstress = [-10e6, -10e6, 0]\n[[boundary]]\nsides = ['left', 'right', 'bottom', 'top']\ntype = 'roller'\n" \
+                "[zones]\nsize = 0.1\ngrowth = 0.2\n[[stage]]\nuntil = 'equilibrium'\n"
+        (self.dir / "k.toml").write_text(model)
+        self.expect(0, "run", "k.toml", "--quiet")
+        rows = self.along("k", "1,0,5,0", "stress.yy,stress.xx")
+        self.assertGreater(len(rows), 15)
+        exact = {"stress.yy": lambda r: -10e6 * (1 + 1 / r**2), "stress.xx": lambda r: -10e6 * (1 - 1 / r**2)}
+        for name, stress in exact.items():
+            off = [(row["length"], row[name] / stress(row["x"]) - 1 if name == "stress.yy" else (row[name] - stress(row["x"])) / 10e6) for row in rows]
+            self.assertLess(max(abs(error) for _, error in off), 0.1, name)  # of a zone that the line cuts at a corner
+            self.assertLess(sum(length * error**2 for length, error in off) / sum(length for length, _ in off), 0.02**2, name)
+        self.expect(0, "plot", "k", "--along=-5,0,5,0", "--field", "stress.yy,stress.xx,strength_factor", "-o", "line.svg")
+        picture = (self.dir / "line.svg").read_text(encoding="utf-8")
+        for text in ("stress.yy", "stress.xx", "strength_factor", "stress (MPa)", "strength factor", "distance from (\u22125, 0) towards (5, 0) (m)"):
+            self.assertIn(f">{text}</text>", picture)
+
+    def test_plot_along_refuses_what_no_line_has(self):
+        self.expect(0, "run", "m.toml", "--quiet")
+        for line, field, said in (("0,0,0,0", "stress", "has no length"), ("100,0,200,0", "stress", "meets no block"),
+                                  ("0,0,9,0", "slip", "contacts"), ("0,0,9,0", "none", "nothing to draw"), ("0,0,9,0", "stress.yy,up", "no field")):
+            self.assertIn(said, self.expect(2, "plot", "m", "--along", line, "--field", field, "-o", "line.svg").stderr)
+        self.assertIn("no folder", self.expect(2, "plot", "m.toml", "--along", "0,0,9,0").stderr)
+        self.expect(2, "plot", "m", "--along", "0,0,9,0", "--history", "energy")
+        self.expect(2, "plot", "m", "--field", "stress", "-o", "line.csv")
+        self.assertFalse((self.dir / "line.svg").exists())
+
+    def test_plot_draws_every_crack_however_wide(self):
+        """A row of blocks is pulled apart and one of them is pushed off sideways: all that has broken is recorded and drawn."""
+        model = "gravity = [0, 0]\n[materials.rock]\ndensity = 2500\nyoung = 1e10\npoisson = 0.2\n" \
+                "[joints.j]\nfriction_angle = 30\ncohesion = 2e5\ntensile_strength = 1e5\nfracture_energy = 5\nshear_fracture_energy = 5\n[contact]\njoint = 'j'\n" \
+                "[[block]]\nfixed = true\npolygon = [[0, 0], [1, 0], [1, 1], [0, 1]]\n" \
+                "[[block]]\nvelocity = [3, 0]\npolygon = [[1, 0], [2, 0], [2, 1], [1, 1]]\n" \
+                "[[block]]\nvelocity = [0, -3]\npolygon = [[0, -1], [1, -1], [1, 0], [0, 0]]\n" \
+                "[solver]\nduration = 0.2\n[output]\nevery = 0.1\n"
+        (self.dir / "c.toml").write_text(model)
+        self.expect(0, "run", "c.toml", "--quiet")
+        last = read_rows(self.dir / "c/history.csv")[-1]
+        rows = read_rows(self.dir / "c/joints.csv")
+        for mode in ("tension", "shear"):
+            self.assertEqual(sum(row["broken_by"] == mode for row in rows), int(last["cracks_" + mode]), mode)
+        self.assertEqual(int(last["cracks_tension"]), 2)
+        self.assertEqual(len(rows), 2)
+        self.assertGreater(min(float(row["opening"]) for row in rows), 0.3)
+        self.expect(0, "plot", "c", "--cracks", "--field", "none", "-o", "c.svg")
+        lines = re.findall('<path [^>]*stroke(?:: *|=")rgb\\(85%, ?20%, ?5%\\)[^>]*>', (self.dir / "c.svg").read_text())
+        self.assertEqual(len(lines), 3)  # and one in the legend
+
+    def test_the_mechanism_of_zones_shows_what_slides(self):
+        self.expect(0, "example", "clay-slope")
+        self.expect(0, "fos", "clay-slope.toml", "--set", "zones.size=2", "--set", "fos.tolerance=0.1", "-o", "clay-slope", "--quiet")
+        picture = (self.dir / "clay-slope/mechanism.svg").read_text(encoding="utf-8")
+        fills = re.findall('<path [^>]*fill-rule(?:: *|=")evenodd[^>]*?fill(?:: *|=")rgb\\(([^)]*)\\)', picture)
+        self.assertGreater(len(fills), 100)
+        self.assertGreater(len(set(fills)), 50)
+        factor = float(re.search("displacements drawn ([0-9.]+) times", picture)[1])
+        self.assertLess(factor * max(float(row["displacement"]) for row in read_rows(self.dir / "clay-slope/mechanism.csv")), 2)
+
     def test_plot_keeps_bolts_apart_whatever_their_names(self):
         self.expect(0, "run", "m.toml", "--quiet")
         for names in (("1", "2"), ("0", "B"), ("B", "0")):

@@ -241,3 +241,38 @@ def test_docstrings_say_columns_and_units(folder, bolted):
         for field in frame:
             assert field in edda.Frame.__doc__, field
     assert "xx yy zz xy yz xz" in edda.Frame.__doc__
+
+
+ZONES = """
+[materials.soft]
+density = 2000
+young = "10 MPa"
+poisson = 0.25
+zone_size = 0.25
+yield = { friction_angle = 20, cohesion = "4 kPa" }
+[joints.j]
+friction_angle = 30
+[[block]]
+fixed = true
+polygon = [[-1, -1], [5, -1], [5, 0], [-1, 0]]
+[[block]]
+polygon = [[0, 0], [2, 0], [2, 2], [0, 2]]
+[solver]
+duration = 0.05
+[output]
+every = 0.05
+"""
+
+
+def test_a_block_with_zones_has_their_mean(tmp_path):
+    (tmp_path / "zones.toml").write_text(ZONES)
+    simulation = edda.Simulation(edda.load(tmp_path / "zones.toml"), results=tmp_path / "zones")
+    simulation.run()
+    frame, blocks = edda.Results(tmp_path / "zones").frames[-1], edda.Results(tmp_path / "zones").blocks
+    assert len(frame["id"]) == 2
+    for k, name in enumerate(("ux", "uy")):
+        assert frame["displacement"][1, k] == pytest.approx(blocks[name][1], rel=0.02, abs=1e-5)
+    for k, name in enumerate(("sxx", "syy", "szz", "sxy")):
+        assert frame["stress"][1, k] == pytest.approx(blocks[name][1], rel=0.02, abs=50)
+    assert abs(frame["displacement"][1, 1]) > 1e-4
+    assert frame["strength_factor"][1] > 0.5

@@ -17,6 +17,7 @@ struct TestFace {
   double state = 1.0;
   double block_i = 4.0, block_j = 5.0;
   Vec2 displacement{};
+  double broken_by = 0.0;  ///< 1 tension, 2 shear
 };
 
 /// With the forces of these pressures, 1 m thick, and a fifth of them as shear.
@@ -25,7 +26,7 @@ inline Grid face_grid(const std::vector<TestFace>& faces) {
   const auto add = [&](const std::string& name, const std::vector<double>& values) {
     Field* field = nullptr;
     for (Field& f : g.cell_fields) field = f.name == name ? &f : field;
-    const bool whole = name.starts_with("block_") || name == "state";
+    const bool whole = name.starts_with("block_") || name == "state" || name == "broken_by";
     if (field == nullptr)
       field = &g.cell_fields.emplace_back(Field{name, values.size(), {}, {}, whole});
     field->values.insert(field->values.end(), values.begin(), values.end());
@@ -50,6 +51,8 @@ inline Grid face_grid(const std::vector<TestFace>& faces) {
     add("displacement", {f.displacement.x, f.displacement.y, 0.0});
     add("length", {length});
     add("closed_length", {f.closed * length});
+    add("damage", {f.broken_by > 0.0 ? 1.0 : 0.25});
+    add("broken_by", {f.broken_by});
     add("x_a", {f.a.x});
     add("y_a", {f.a.y});
     add("x_b", {f.b.x});

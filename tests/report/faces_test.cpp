@@ -91,7 +91,7 @@ TEST(DrawnFaces, AreWhereTheFrameSays) {
 }
 
 /// Where displacements are drawn larger, faces stay on the edges of their block j, which moves,
-/// turns and is strained, whatever block i does.
+/// turns, is strained and bends, whatever block i does.
 TEST(DrawnFaces, GoAlongWithTheirBlock) {
   Snapshot shot{two_blocks()};
   std::vector<double>& u = shot.blocks.point_fields[0].values;
@@ -100,6 +100,7 @@ TEST(DrawnFaces, GoAlongWithTheirBlock) {
     u[3 * p] = 0.1 - 0.2 * y + 0.01 * x;
     u[3 * p + 1] = -0.3 + 0.2 * x + 0.03 * y;
   }
+  u[3 * 7] += 0.4;
   shot.contacts = face_grid({{{2, 0}, {2, 0.5}, 1e6, 1e6, 1.0, 1.0, 4, 5, {7.0, 7.0}},
                              {{0.25, 0}, {1, 0}, 1e6, 1e6, 1.0, 1.0, 5, 4, {7.0, 7.0}},
                              {{0.5, 0}, {1, 0}, 1e6, 1e6, 1.0, 1.0, 5, 9, {7.0, 7.0}}});

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "report/face_grid.hpp"
 #include "report/picture_reading.hpp"
 #include "report/snapshots.hpp"
 
@@ -130,6 +131,38 @@ TEST(Plot, TheLegendSaysWhatThickJointsAre) {
   const std::string svg = drawn({&shot, 1}, options);
   EXPECT_TRUE(text_of(svg, "slip or open"));
   EXPECT_EQ(stroked(svg, ink::joint).size(), 2u);  // with that of the legend
+}
+
+TEST(Plot, CracksAreLinesByWhatHasBrokenTheFace) {
+  Snapshot shot = snapshot("none");
+  shot.contacts = face_grid({{{1.5, 0}, {1.5, 0.4}, 0.0, 0.0, 0.0, 0.0, 4, 5, {}, 1.0},
+                             {{1.5, 0.4}, {1.5, 0.9}, 0.0, 0.0, 0.0, 1.0, 4, 5, {}, 2.0},
+                             {{1.5, 0.9}, {1.5, 1.0}, 1e5, 1e5}});
+  PlotOptions options;
+  EXPECT_TRUE(stroked(drawn({&shot, 1}, options), ink::tension).empty());
+  options.cracks = true;
+  const std::string svg = drawn({&shot, 1}, options);
+  // In the drawing and in the legend.
+  EXPECT_EQ(stroked(svg, ink::tension).size(), 2u);
+  EXPECT_EQ(stroked(svg, ink::compression).size(), 2u);
+  EXPECT_TRUE(text_of(svg, "in tension") && text_of(svg, "in shear"));
+  const double metre = text_of(svg, "1.0")->x - text_of(svg, "0.0")->x;
+  const std::vector<Vec2> line = points_of(stroked(svg, ink::compression).front());
+  EXPECT_NEAR(norm(line[1] - line[0]), 0.5 * metre, 0.01 * metre);
+}
+
+/// Open faces have no stress to show, but may have damage.
+TEST(Plot, DamageIsShownOfOpenFacesToo) {
+  Snapshot shot = snapshot("none");
+  shot.contacts = face_grid({{{1.5, 0}, {1.5, 0.4}, 0.0, 0.0, 0.0, 0.0, 4, 5, {}, 1.0},
+                             {{1.5, 0.4}, {1.5, 1.0}, 1e5, 1e5}});
+  const auto lines = [&](const char* field) {
+    shot.field = shown_field(field, shot.blocks, &*shot.contacts).value();
+    const std::string svg = drawn({&shot, 1}, {});
+    return stroked(svg, sequential(1.0)).size() + stroked(svg, sequential(0.0)).size();
+  };
+  EXPECT_EQ(lines("damage"), 2u);
+  EXPECT_EQ(lines("normal_stress"), 1u);
 }
 
 TEST(Plot, TensionAndCompressionAreToldApart) {

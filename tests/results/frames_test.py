@@ -146,6 +146,12 @@ def check_zones(folder):
     assert max(stress[c][1] for c in cells) - min(stress[c][1] for c in cells) > 1e3
     assert strain.max() > 0.0 and yields.max() in (1, 2)
     assert all(strain[c] == 0.0 for c in range(len(ids)) if c not in cells)
+    factor = vtk_to_numpy(data.GetArray("strength_factor"))
+    assert all(factor[c] != factor[c] for c in range(len(ids)) if c not in cells), "rock without a strength has none"
+    factor, yields = factor[cells], yields[cells]
+    assert 0.0 <= factor.min() and factor.max() <= 10.0
+    sheared = sorted(factor[yields == 1])
+    assert len(sheared) > 0 and abs(sheared[len(sheared) // 2] - 1.0) < 1e-6, sheared
     start = read(folder / frames[0][1])
     moved = vtk_to_numpy(grid.GetPoints().GetData()) - vtk_to_numpy(start.GetPoints().GetData())
     assert abs(moved - vtk_to_numpy(grid.GetPointData().GetArray("displacement"))).max() < 1e-12

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <cstring>
+#include <limits>
 
 #include "report/face_grid.hpp"
 #include "view/frames_of.hpp"
@@ -14,13 +15,20 @@ namespace {
 /// Reads a frame as the page does (page/src/data/frame.ts), written from the layout alone.
 class Unpacked {
  public:
-  explicit Unpacked(const std::string& bytes) : bytes_(bytes) {
+  explicit Unpacked(const std::string& bytes, std::size_t nodes = 0, std::size_t cells = 0)
+      : bytes_(bytes) {
     for (std::uint32_t* n : {&bits, &rows, &count, &datum, &touching}) *n = number<std::uint32_t>();
     for (std::uint32_t r = 0; r < rows; ++r)
       alive.push_back(static_cast<unsigned char>(bytes[20 + r / 8]) >> r % 8 & 1);
     at_ += (rows + 7) / 8;
     for (const std::size_t columns : {2UL, 4UL, 2UL, 1UL, 1UL, 4UL, 1UL})
       group(columns, count, blocks);
+    if (nodes > 0) {
+      for (int n = 0; n < 2; ++n) group(2, nodes, of_nodes);
+      for (const std::size_t columns : {4UL, 1UL, 1UL}) group(columns, cells, of_zones);
+      for (std::size_t z = 0; z < cells; ++z)
+        yields.push_back(static_cast<unsigned char>(bytes_[at_++]));
+    }
     std::uint64_t i = 0;
     for (std::uint32_t k = 0; k < touching; ++k) contact_i.push_back(i += varint());
     for (std::uint32_t k = 0; k < touching; ++k) {
@@ -31,17 +39,19 @@ class Unpacked {
     for (std::uint32_t k = 0; k < touching; ++k) contact_edge.push_back(varint());
     for (std::uint32_t k = 0; k < touching; ++k)
       state.push_back(static_cast<unsigned char>(bytes_[at_++]));
+    for (std::uint32_t k = 0; k < touching; ++k)
+      broken.push_back(static_cast<unsigned char>(bytes_[at_++]));
     if (at_ < bytes.size()) {
-      for (const std::size_t columns : {3UL, 2UL, 1UL, 1UL, 2UL, 1UL, 1UL})
+      for (const std::size_t columns : {3UL, 2UL, 1UL, 1UL, 2UL, 1UL, 1UL, 1UL})
         group(columns, touching, contacts);
     }
     EXPECT_EQ(at_, bytes.size());
   }
   std::uint32_t bits = 0, rows = 0, count = 0, datum = 0, touching = 0;
-  std::vector<int> alive, state;
+  std::vector<int> alive, state, broken, yields;
   std::vector<std::uint64_t> contact_i, contact_edge;
   std::vector<std::int64_t> contact_j;
-  std::vector<std::vector<double>> blocks, contacts;  ///< columns
+  std::vector<std::vector<double>> blocks, contacts, of_nodes, of_zones;  ///< columns
 
  private:
   template <class T>
@@ -255,7 +265,7 @@ TEST(ViewFrame, ABlockThatTheFirstFrameHasNotIsAFault) {
 /// Half of the upper edge of block 0, and the left side of block 1, at their places.
 Grid two_faces() {
   const auto at = [&](std::size_t block, Vec2 p) { return turned(three[block], p); };
-  Grid g = face_grid({{at(0, {1.5, 1}), at(0, {0.5, 1}), 4e5, 0.0, 0.5, 2.0, 2, 0},
+  Grid g = face_grid({{at(0, {1.5, 1}), at(0, {0.5, 1}), 4e5, 0.0, 0.5, 2.0, 2, 0, {}, 2.0},
                       {at(1, {2, 1}), at(1, {2, 0}), 1e5, 3e5, 1.0, 1.0, 0, 1}});
   for (Field& field : g.cell_fields) {
     if (field.name == "opening") field.values = {-1e-5, -2e-6};
@@ -286,7 +296,7 @@ TEST(ViewFrame, ContactsNameTheEdgeThatTheyLieAlongAndTheirEndsOnIt) {
 TEST(ViewFrame, ContactsHaveTheirForcesAndStresses) {
   const Grid contacts = two_faces();
   const Unpacked u = unpacked(frame_of(three, turned, by_turn), &contacts, ViewPrecision::single);
-  ASSERT_EQ(u.contacts.size(), 11u);
+  ASSERT_EQ(u.contacts.size(), 12u);
   expect_column(u.contacts[3], 2e5, 1e5);
   expect_column(u.contacts[4], 4e4, 2e4);
   expect_column(u.contacts[5], -2e-6, -1e-5);
@@ -295,6 +305,8 @@ TEST(ViewFrame, ContactsHaveTheirForcesAndStresses) {
   expect_column(u.contacts[8], 3e5, 0.0);
   expect_column(u.contacts[9], 2e5, 1e5);
   expect_column(u.contacts[10], 4e4, 2e4);
+  expect_column(u.contacts[11], 0.25, 1.0);
+  EXPECT_EQ(u.broken, (std::vector<int>{0, 2}));
 }
 
 TEST(ViewFrame, ContactsOfOlderFramesArePointsOnTheEdgeThatTheirForceCrosses) {
@@ -332,6 +344,84 @@ TEST(ViewFrame, TheDatumChangesWhereDisplacementsAreReset) {
   EXPECT_NEAR(other.motion[1].d.x, expected.x, 1e-13);
   EXPECT_NEAR(other.motion[1].d.y, expected.y, 1e-13);
   EXPECT_NEAR(other.motion[1].yx, std::sin(0.6), 1e-13);
+}
+
+/// Block 1 of `three` divided by a diagonal, with values of its own in each triangle.
+Grid with_zones(const Moved& place, const Moved& displacement) {
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  Grid g = frame_of(three, place, displacement);
+  const std::int64_t first = g.corners[4];
+  g.corners.erase(g.corners.begin() + 4, g.corners.begin() + 8);
+  for (const std::int64_t k : {3, 2, 0, 2, 1, 0})
+    g.corners.insert(g.corners.begin() + 4, first + k);
+  g.ends = {4, 7, 10, 13};
+  g.types = {cell_type::polygon, cell_type::triangle, cell_type::triangle, cell_type::polygon};
+  for (Field& f : g.cell_fields) {
+    const auto one = f.values.begin() + static_cast<std::ptrdiff_t>(f.components);
+    const std::vector<double> again(one, one + static_cast<std::ptrdiff_t>(f.components));
+    f.values.insert(one, again.begin(), again.end());
+    if (f.name == "stress") f.values[6] = -5e6;
+  }
+  g.cell_fields.push_back({"plastic_strain", 1, {0.0, 0.01, 0.03, 0.0}, {}, false});
+  g.cell_fields.push_back({"yields", 1, {0.0, 2.0, 1.0, 0.0}, {}, true});
+  g.cell_fields.push_back({"strength_factor", 1, {nan, 1.5, nan, nan}, {}, false});
+  Field velocity = *g.point_field("displacement");
+  velocity.name = "velocity";
+  for (double& v : velocity.values) v *= 2.0;
+  g.point_fields.push_back(velocity);
+  return g;
+}
+
+/// No affine motion: one of the corners of block 1 moves alone.
+Vec2 one_corner(const TestBlock& b, Vec2 p) {
+  return b.id == 1 && p == Vec2{4, 1} ? Vec2{0.2, -0.1} : Vec2{0.01, 0.0};
+}
+
+TEST(ViewFrame, ZonesHaveTheirNodesAndValues) {
+  const ViewMesh mesh = view_mesh(with_zones(stays, nothing));
+  EXPECT_EQ(mesh.zoned, (std::vector<std::uint8_t>{0, 1, 0}));
+  const Grid g =
+      with_zones([](const TestBlock& b, Vec2 p) { return p + one_corner(b, p); }, one_corner);
+  const ViewBlocks in = blocks_in(mesh, g).value();
+  EXPECT_EQ(valued_cells(mesh, in), (std::vector<std::size_t>{0, 1, 2, 3}));
+  for (const ViewPrecision precision : {ViewPrecision::single, ViewPrecision::whole16}) {
+    const Unpacked u(frame_bytes(mesh, in, g, nullptr, precision, 0), 4, 2);
+    for (std::size_t k = 0; k < 4; ++k) {
+      const std::size_t v = mesh.begin[1] + k;
+      const Vec2 expected = one_corner(three[1], mesh.centre[1] + mesh.vertex[v]);
+      EXPECT_NEAR(u.of_nodes[0][k], expected.x, 1e-5);
+      EXPECT_NEAR(u.of_nodes[1][k], expected.y, 1e-5);
+      EXPECT_NEAR(u.of_nodes[2][k], 2.0 * expected.x, 2e-4);
+      EXPECT_NEAR(u.of_nodes[3][k], 2.0 * expected.y, 2e-4);
+    }
+    EXPECT_NEAR(u.of_zones[0][0], -5e6, 2e3);
+    EXPECT_NEAR(u.of_zones[0][1], -2e6, 2e3);
+    EXPECT_NEAR(u.of_zones[3][1], 8e5, 2e3);
+    EXPECT_NEAR(u.of_zones[4][0], 0.01, 1e-5);
+    EXPECT_NEAR(u.of_zones[5][0], 1.5, 1e-3);
+    EXPECT_NEAR(u.of_zones[5][1], -1.0, 1e-3);
+    EXPECT_EQ(u.yields, (std::vector<int>{2, 1}));
+    // The block has their mean by area.
+    const std::vector<double> areas = cell_areas(g);
+    EXPECT_NEAR(u.blocks[10][1], -(5e6 * areas[1] + 2e6 * areas[2]) / (areas[1] + areas[2]), 2e3);
+    EXPECT_GT(std::abs(areas[1] / areas[2] - 1.0), 0.02);
+  }
+}
+
+/// After a reset of displacements a node that has moved by itself stays where it is.
+TEST(ViewFrame, ADatumKeepsWhereNodesAre) {
+  const ViewMesh mesh = view_mesh(with_zones(stays, nothing));
+  const auto place = [](const TestBlock& b, Vec2 p) { return p + one_corner(b, p); };
+  const Grid before = with_zones(place, one_corner), reset = with_zones(place, nothing);
+  ViewDatum first, second, third;
+  ASSERT_TRUE(find_datum(mesh, before, blocks_in(mesh, before).value(), nullptr, first));
+  EXPECT_FALSE(find_datum(mesh, before, blocks_in(mesh, before).value(), &first, third));
+  ASSERT_TRUE(find_datum(mesh, reset, blocks_in(mesh, reset).value(), &first, second));
+  for (std::size_t v = mesh.begin[1]; v < mesh.begin[2]; ++v) {
+    EXPECT_LT(norm(first.moved[v]), 1e-12);
+    EXPECT_LT(norm(second.moved[v] - one_corner(three[1], mesh.centre[1] + mesh.vertex[v])), 1e-12);
+  }
+  EXPECT_EQ(datum_bytes(mesh, second).size(), 4 * (6 * 3 + 2 * 4));
 }
 
 }  // namespace

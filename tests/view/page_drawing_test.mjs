@@ -1,8 +1,9 @@
 // What the replay page draws, in a real browser: colours, places, and the picture that it saves.
 import assert from 'node:assert/strict';
-import { readFileSync } from 'node:fs';
+import { readFileSync, writeFileSync } from 'node:fs';
+import path from 'node:path';
 import { test } from 'node:test';
-import { choose, clickAt, faults, page, shownValues, table } from './page_tools.mjs';
+import { choose, clickAt, faults, folder, page, run, shownValues, table } from './page_tools.mjs';
 
 const ink = (p, x, y) =>
   p.evaluate(([a, b]) => {
@@ -31,6 +32,171 @@ test('paints blocks in the colour of their value', async () => {
     }
   }
   await p.close();
+});
+
+/** A soft box of zones that yields under its weight, beside one without zones, on a floor. */
+const zones = `
+title = "zones"
+[materials.soft]
+density = 2000
+young = "10 MPa"
+poisson = 0.25
+zone_size = 0.25
+yield = { friction_angle = 20, cohesion = "4 kPa" }
+[materials.rock]
+density = 2000
+young = "1 GPa"
+poisson = 0.25
+[joints.j]
+friction_angle = 30
+[[block]]
+name = "floor"
+material = "rock"
+fixed = true
+polygon = [[-1, -1], [5, -1], [5, 0], [-1, 0]]
+[[block]]
+name = "soft"
+material = "soft"
+polygon = [[0, 0], [2, 0], [2, 2], [0, 2]]
+[[block]]
+name = "hard"
+material = "rock"
+polygon = [[3, 0], [4, 0], [4, 1], [3, 1]]
+[[monitor]]
+name = "corner"
+point = [2, 1.999999]
+[[stage]]
+duration = 0.15
+[[stage]]
+reset_displacements = true
+duration = 0.1
+[output]
+every = 0.05
+`;
+const zonesPage = async () => {
+  writeFileSync(path.join(folder, 'zones.toml'), zones);
+  run('run', 'zones.toml', '--quiet');
+  run('view', 'zones');
+  return page('zones.html');
+};
+
+test('paints zones in the colour of their own value, deformed', async () => {
+  const p = await zonesPage();
+  await p.keyboard.press('End');
+  await p.waitForFunction(() => edda.shown === edda.player.end);
+  await p.locator('#edges').uncheck();
+  await p.locator('#marks').uncheck();
+  const soft = await p.evaluate(() => edda.results.mesh.zones.count);
+  assert.ok(soft > 50, String(soft));
+  for (const field of ['displacement', 'stress.yy', 'plastic_strain', 'strength_factor', 'yields']) {
+    await choose(p, 'field', field);
+    // Where each zone is drawn, and its colour.
+    const found = await p.evaluate((f) => {
+      const { mesh } = edda.results;
+      const { pose, camera } = edda.view;
+      const copy = document.createElement('canvas');
+      [copy.width, copy.height] = [camera.width, camera.height];
+      const g = copy.getContext('2d');
+      edda.view.copyTo(g, 0, 0, copy.width, copy.height);
+      const image = g.getImageData(0, 0, copy.width, copy.height).data;
+      const values = new Set();
+      let wrong = 0;
+      for (let z = mesh.blocks; z < mesh.parts; z += 3) {
+        const [px, py] = camera.px(...pose.point(z, 0, 0));
+        edda.selected = z;
+        const value = edda.valueOf(f);
+        values.add(value);
+        const { colours } = edda.scale;
+        const step = 3 * edda.scale.step(value);
+        const at = 4 * (Math.round(py) * copy.width + Math.round(px));
+        wrong += [0, 1, 2].some((i) => image[at + i] !== colours[step + i]);
+      }
+      edda.selected = -1;
+      return { wrong, values: values.size };
+    }, field);
+    assert.equal(found.wrong, 0, field);
+    assert.ok(found.values > (field === 'yields' ? 1 : 10), `${field}: ${found.values} values`);
+  }
+  // The corner goes with the zone at it, over a reset of displacements, too.
+  const history = readFileSync(path.join(folder, 'zones/history.csv'), 'utf8').trim().split('\n').map((line) => line.split(','));
+  const column = (name) => history[0].indexOf(name);
+  const rowAt = (t) => history.slice(1).reduce((best, row) => (Math.abs(row[0] - t) < Math.abs(best[0] - t) ? row : best));
+  const beforeReset = rowAt(0.15 - 1e-9);
+  for (const [frame, time] of [[2, 0.1], [5, 0.25]]) {
+    await p.evaluate((k) => edda.player.go(k), frame);
+    await p.waitForFunction((k) => edda.shown === k, frame);
+    const at = await p.evaluate(() => {
+      const { overlay, view } = edda;
+      const { row, rx, ry } = overlay.monitors[0].at[0];
+      const [x, y] = view.pose.point(row, rx, ry);
+      return [x + view.pose.origin[0], y + view.pose.origin[1], row >= edda.results.mesh.blocks];
+    });
+    assert.ok(at[2], 'in a zone');
+    const row = rowAt(time);
+    for (const [k, name] of [[0, 'corner.ux'], [1, 'corner.uy']]) {
+      const moved = Number(row[column(name)]) + (time > 0.15 ? Number(beforeReset[column(name)]) : 0);
+      const start = [2, 1.999999][k];
+      assert.ok(Math.abs(at[k] - start - moved) < 2e-6 + 1e-4 * Math.abs(moved), `${name} at ${time}: ${at[k] - start} for ${moved}`);
+      if (k === 1) assert.ok(Math.abs(moved) > 1e-3, `${moved}`);
+    }
+  }
+  // A click shows the zone.
+  await p.evaluate(() => edda.pick(...edda.pixelOf(1, 0.3)));
+  assert.match(await p.textContent('#selection-title'), /^A zone of block 1$/);
+  const shown = await shownValues(p);
+  assert.ok(shown.syy.value < -1e4, JSON.stringify(shown.syy));
+  assert.ok(shown.strength_factor.value >= 0.99 && shown.yields.text !== '', JSON.stringify(shown));
+  await p.close();
+});
+
+test('draws joints that have broken by what has broken them', async () => {
+  const square = (x, y) => `[[${x}, ${y}], [${x + 1}, ${y}], [${x + 1}, ${y + 1}], [${x}, ${y + 1}]]`;
+  writeFileSync(path.join(folder, 'cracks.toml'), `gravity = [0, 0]
+[materials.rock]
+density = 2500
+young = 1e10
+poisson = 0.2
+[joints.j]
+friction_angle = 30
+cohesion = 2e5
+tensile_strength = 1e5
+fracture_energy = 5
+shear_fracture_energy = 5
+[contact]
+joint = "j"
+[solver]
+duration = 0.2
+[output]
+every = 0.1
+[[block]]
+fixed = true
+polygon = ${square(0, 0)}
+[[block]]
+velocity = [3, 0]
+polygon = ${square(1, 0)}
+`);
+  run('run', 'cracks.toml', '--quiet');
+  run('view', 'cracks');
+  const p = await page('cracks.html');
+  const drawn = () => p.evaluate(() => ({ count: edda.view.crackStrokes.count, ends: [...edda.view.crackStrokes.ends.slice(0, 4)], origin: edda.view.pose.origin }));
+  await p.keyboard.press('Home');
+  await p.waitForFunction(() => edda.shown === 0);
+  assert.equal((await drawn()).count, 0, 'nothing has broken at the start');
+  await p.keyboard.press('End');
+  await p.waitForFunction(() => edda.shown === edda.player.end);
+  const { count, ends, origin } = await drawn();
+  assert.equal(count, 1);
+  const [x, y] = [[ends[0], ends[2]], [ends[1], ends[3]]];
+  assert.ok(Math.abs(x[0] - x[1]) < 1e-6 && Math.abs(Math.abs(y[0] - y[1]) - 1) < 0.01, `${ends}`);
+  assert.ok(x[0] + origin[0] > 0.99, `${ends}`);
+  assert.deepEqual(await p.evaluate(() => [...edda.view.crackStrokes.colours.slice(0, 3)]), await p.evaluate(() => edda.view.theme.tension));
+  await p.locator('#cracks').uncheck();
+  await p.waitForFunction(() => !edda.stale);
+  assert.equal(await p.evaluate(() => edda.controls.cracks), false);
+  await p.close();
+  const plain = await page('cavern.html');
+  assert.ok(await plain.locator('#cracks').isHidden());
+  await plain.close();
 });
 
 test('has white at nothing, whatever the range', async () => {

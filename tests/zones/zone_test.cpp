@@ -239,6 +239,30 @@ TEST(Zone, HasTheStrengthOfItsRock) {
   EXPECT_NEAR(largest / strength, 1.0, 5e-3);
 }
 
+/// In a motion that shears rock without dilation, and in one that pulls a pair apart.
+TEST(Zone, TheStrengthFactorIsOneWhereItYields) {
+  const ZoneMaterial m = rock_that_yields({6e9, 4e9}, {30 * degree, 0.0, 1e6, 5e5});
+  for (const double across : {-1e-4, 4e-4}) {
+    Pair p;
+    for (int n = 1; n <= 50; ++n) {
+      std::array<Vec2, 4> x = p.at;
+      for (Vec2& v : x) v = {v.x + 2e-5 * n * v.y, v.y * (1.0 + 0.02 * across * n)};
+      const auto r = p.at_corners(m, x);
+      for (std::size_t q = 0; q < 2; ++q) {
+        const double factor = strength_factor(m, 0.0, p.state[q].stress);
+        if (r[q].yielding == Yielding::nowhere) {
+          EXPECT_GT(factor, 1.0);
+        } else {
+          EXPECT_NEAR(factor, 1.0, 1e-9);
+        }
+        if (n == 50) {
+          EXPECT_EQ(r[q].yielding, across > 0.0 ? Yielding::in_tension : Yielding::in_shear);
+        }
+      }
+    }
+  }
+}
+
 /// A stress along and across a foliation strains the rock by the moduli given for them.
 TEST(Zone, AFoliationHasItsModuli) {
   for (const double across : {0.0, 1.0}) {

@@ -1,4 +1,4 @@
-// Fields by name: one number per block or contact of a frame. The names, labels and units are those
+// Fields by name: one number per part (block or zone) or contact of a frame. The names, labels and units are those
 // of edda plot; the run's header lists them.
 import type { Contacts, Frame } from './frame';
 import type { Mesh } from './mesh';
@@ -42,6 +42,9 @@ const ofBlocks: Record<string, OfBlock> = {
   'principal_stress.major': (f, b) => principal(f, b).major,
   'principal_stress.minor': (f, b) => principal(f, b).minor,
   overstress: (f, b) => f.overstress[b],
+  plastic_strain: (f, b) => f.plastic[b],
+  yields: (f, b) => f.yields[b],
+  strength_factor: (f, b) => f.strength[b],
 };
 
 const ofContacts: Record<string, (c: Contacts) => ArrayLike<number>> = {
@@ -52,9 +55,10 @@ const ofContacts: Record<string, (c: Contacts) => ArrayLike<number>> = {
   state: (c) => c.state,
   normal_stress: (c) => c.normalStress,
   shear_stress: (c) => c.shearStress,
+  damage: (c) => c.damage,
 };
 /** Drawn as lines along the faces; the others as dots. */
-const alongFaces = ['normal_stress', 'shear_stress'];
+const alongFaces = ['normal_stress', 'shear_stress', 'damage'];
 
 /** A field's label without its sign convention, where there is no room for it. */
 export const withoutSign = (label: string) => label.replace(/ \((tension|compression) positive\)$/, '');
@@ -70,14 +74,14 @@ export function blockValue(name: string, f: Frame, b: number, mesh: Mesh): numbe
   return ofBlocks[name]?.(f, b, mesh) ?? NaN;
 }
 
-/** Of all blocks, into `values`. */
+/** Of all parts, into `values`. */
 export function blockValues(name: string, f: Frame, mesh: Mesh, values: Float32Array): void {
   const value = ofBlocks[name];
   if (value === undefined) {
     values.fill(NaN);
     return;
   }
-  for (let b = 0; b < mesh.blocks; ++b) values[b] = value(f, b, mesh);
+  for (let b = 0; b < mesh.parts; ++b) values[b] = value(f, b, mesh);
 }
 
 export function contactValues(name: string, c: Contacts): ArrayLike<number> | undefined {

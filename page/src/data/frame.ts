@@ -1,8 +1,9 @@
 // One frame, as numbers (frame_bytes() in src/view/frame.cpp says how it is packed). Columns are by
-// row of the mesh, zero where a block is gone.
+// part of the mesh, zero where a block is gone.
+import type { Zones } from './mesh';
 import { Reader } from './reader';
 
-/** u(X) = d + A (X - c) of each block: columns d.x d.y A.xx A.xy A.yx A.yy. */
+/** u(X) = d + A (X - c) of each part: columns d.x d.y A.xx A.xy A.yx A.yy. */
 export type Motion = Float32Array[];
 
 export interface Contacts {
@@ -18,6 +19,8 @@ export interface Contacts {
   closed: Float32Array;
   /** 0 open, 1 stick, 2 slide, 3 bonded. */
   state: Uint8Array;
+  /** What has broken it: 0 nothing, 1 tension, 2 shear. */
+  broken: Uint8Array;
   /** N; compression positive. */
   normal: Float32Array;
   shear: Float32Array;
@@ -29,6 +32,8 @@ export interface Contacts {
   stressB: Float32Array;
   normalStress: Float32Array;
   shearStress: Float32Array;
+  /** Part of the strength that is lost. */
+  damage: Float32Array;
 }
 
 export interface Frame {
@@ -51,6 +56,10 @@ export interface Frame {
   szz: Float32Array;
   sxy: Float32Array;
   overstress: Float32Array;
+  /** Empty without zones. */
+  plastic: Float32Array;
+  strength: Float32Array;
+  yields: Float32Array;
   contacts: Contacts;
 }
 
@@ -64,15 +73,44 @@ class Columns {
   }
 }
 
-export function readMotion(bytes: Uint8Array, blocks: number): Motion {
+export function readMotion(bytes: Uint8Array, mesh: Beginnings): Motion {
   const columns = new Columns(new Reader(bytes), 32);
-  return [...columns.group(2, blocks), ...columns.group(4, blocks)];
+  const { blocks, zones } = mesh;
+  const motion = [...columns.group(2, blocks), ...columns.group(4, blocks)];
+  return withZones(motion, columns.group(2, zones.nodes), mesh);
 }
 
-/** Of the mesh: where the edges of each block begin, [nb + 1], and its reach. */
+/** What is needed of the mesh. */
 export interface Beginnings {
+  blocks: number;
   edgeBegin: Uint32Array;
   reach: Float64Array;
+  zones: Zones;
+}
+
+/** The motion of all parts: zones by their nodes. */
+function withZones(ofBlocks: Motion, [ux, uy]: Float32Array[], { blocks, zones }: Beginnings): Motion {
+  if (zones.count === 0) return ofBlocks;
+  const motion = ofBlocks.map((column) => grown(column, zones));
+  const { corners, gradient } = zones;
+  for (let z = 0; z < zones.count; ++z) {
+    const p = blocks + z;
+    for (let k = 0; k < 3; ++k) {
+      const [x, y] = [ux[corners[3 * z + k]], uy[corners[3 * z + k]]];
+      const [gx, gy] = [gradient[6 * z + 2 * k], gradient[6 * z + 2 * k + 1]];
+      [x / 3, y / 3, x * gx, x * gy, y * gx, y * gy].forEach((part, c) => (motion[c][p] += part));
+    }
+  }
+  return motion;
+}
+
+/** Of all parts, from what the blocks have and what the zones get. */
+function grown(ofBlocks: Float32Array, zones: Zones, ofZone?: (z: number) => number): Float32Array {
+  const blocks = ofBlocks.length;
+  const all = new Float32Array(blocks + zones.count);
+  all.set(ofBlocks);
+  if (ofZone !== undefined) for (let z = 0; z < zones.count; ++z) all[blocks + z] = ofZone(z);
+  return all;
 }
 
 export function readFrame(bytes: Uint8Array, mesh: Beginnings): Frame {
@@ -92,11 +130,47 @@ export function readFrame(bytes: Uint8Array, mesh: Beginnings): Frame {
   const [rotation] = group(1);
   const [sxx, syy, szz, sxy] = group(4);
   const [overstress] = group(1);
-  const contacts = readContacts(r, columns, touching, mesh);
-  return { bits, alive, datum, motion, vx, vy, omega, rotation, sxx, syy, szz, sxy, overstress, contacts };
+  const none = new Float32Array(0);
+  const frame = { bits, alive, datum, motion, vx, vy, omega, rotation, sxx, syy, szz, sxy, overstress, plastic: none, strength: none, yields: none };
+  if (mesh.zones.count > 0) readZones(r, columns, frame, mesh);
+  return { ...frame, contacts: readContacts(r, columns, touching, mesh) };
 }
 
-/** Values of the blocks alive, by row. */
+/** Values of rock that has no zones. */
+const NO_ZONE = { plastic: 0, strength: NaN, yields: 0 };
+
+/** Makes columns of blocks those of all parts. */
+function readZones(r: Reader, columns: Columns, f: Omit<Frame, 'contacts'>, mesh: Beginnings): void {
+  const { zones, blocks } = mesh;
+  const nodeAlive = Uint8Array.from(zones.blockOfNode, (b) => f.alive[b]);
+  const zoneAlive = Uint8Array.from(zones.blockOfZone, (b) => f.alive[b]);
+  const count = (flags: Uint8Array) => flags.reduce((n, is) => n + is, 0);
+  const ofNodes = () => columns.group(2, count(nodeAlive)).map((c) => spread(c, nodeAlive));
+  const ofZones = (n: number) => columns.group(n, count(zoneAlive)).map((c) => spread(c, zoneAlive));
+  f.motion = withZones(f.motion, ofNodes(), mesh);
+  for (const [name, of] of ofNodes().map((c, k) => [k === 0 ? 'vx' : 'vy', c] as const)) {
+    const [corners] = [zones.corners];
+    f[name] = grown(f[name], zones, (z) => (of[corners[3 * z]] + of[corners[3 * z + 1]] + of[corners[3 * z + 2]]) / 3);
+  }
+  const put = (name: 'sxx' | 'syy' | 'szz' | 'sxy' | 'plastic' | 'strength' | 'yields', of: ArrayLike<number>) => {
+    const ofBlocks = name in NO_ZONE ? new Float32Array(blocks).fill(NO_ZONE[name as keyof typeof NO_ZONE]) : f[name];
+    f[name] = grown(ofBlocks, zones, (z) => of[z]);
+  };
+  ofZones(4).forEach((c, k) => put((['sxx', 'syy', 'szz', 'sxy'] as const)[k], c));
+  put('plastic', ofZones(1)[0]);
+  put('strength', ofZones(1)[0].map((v) => (v < 0 ? NaN : v)));
+  put('yields', spread(Float32Array.from(r.take(count(zoneAlive))), zoneAlive));
+  for (const name of ['omega', 'rotation', 'overstress'] as const) {
+    const ofBlocks = f[name];
+    f[name] = grown(ofBlocks, zones, (z) => ofBlocks[zones.blockOfZone[z]]);
+  }
+  const alive = new Uint8Array(blocks + zones.count);
+  alive.set(f.alive);
+  alive.set(zoneAlive, blocks);
+  f.alive = alive;
+}
+
+/** Values of those alive, by number. */
 function spread(values: Float32Array, alive: Uint8Array): Float32Array {
   if (values.length === alive.length) return values;
   const all = new Float32Array(alive.length);
@@ -109,7 +183,7 @@ function readContacts(r: Reader, columns: Columns, count: number, mesh: Beginnin
   for (let k = 0, row = 0; k < count; ++k) i[k] = row += r.varint();
   for (let k = 0; k < count; ++k) j[k] = i[k] + r.zigzag();
   for (let k = 0; k < count; ++k) edge[k] = mesh.edgeBegin[j[k]] + r.varint();
-  const state = r.take(count).slice();
+  const [state, broken] = [r.take(count).slice(), r.take(count).slice()];
   const some = r.left > 0;
   const group = (n: number) => (some ? columns.group(n, count) : Array.from({ length: n }, () => new Float32Array(0)));
   const [alongA, alongB, closed] = group(3);
@@ -119,7 +193,8 @@ function readContacts(r: Reader, columns: Columns, count: number, mesh: Beginnin
   const [stressA, stressB] = group(2);
   const [normalStress] = group(1);
   const [shearStress] = group(1);
-  return { count, i, j, edge, alongA, alongB, closed, state, normal, shear, opening, slip, stressA, stressB, normalStress, shearStress };
+  const [damage] = group(1);
+  return { count, i, j, edge, alongA, alongB, closed, state, broken, normal, shear, opening, slip, stressA, stressB, normalStress, shearStress, damage };
 }
 
 /** The arrays behind a frame, to hand over without a copy. */

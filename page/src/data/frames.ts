@@ -19,12 +19,12 @@ export class Frames {
   constructor(private readonly source: Source, private readonly mesh: Mesh, private readonly absent: Run['absent']) {
     this.worker = new Worker(URL.createObjectURL(new Blob([workerCode], { type: 'text/javascript' })));
     this.worker.onmessage = ({ data }: MessageEvent<Done>) => this.done(data);
-    this.worker.postMessage({ edgeBegin: mesh.edgeBegin, reach: mesh.reach } satisfies Setup);
+    this.worker.postMessage({ blocks: mesh.blocks, edgeBegin: mesh.edgeBegin, reach: mesh.reach, zones: mesh.zones } satisfies Setup);
   }
 
   /** Frames that may be kept. */
   get room(): number {
-    return Math.max(4, Math.floor(MOST_BYTES / (72 * this.mesh.blocks + 40 * 4 * this.mesh.blocks + 1)));
+    return Math.max(4, Math.floor(MOST_BYTES / (72 * this.mesh.parts + 40 * 4 * this.mesh.blocks + 1)));
   }
 
   ready(index: number): Frame | undefined {
@@ -70,7 +70,7 @@ export class Frames {
     const waiting = this.waiting.get(done.index) ?? [];
     this.waiting.delete(done.index);
     if (done.frame !== undefined) {
-      for (const name of this.absent) done.frame[name].fill(NaN);
+      for (const name of this.absent) if (name in done.frame) done.frame[name as 'omega'].fill(NaN);
       this.kept.set(done.index, done.frame);
       for (const oldest of this.kept.keys()) {
         if (this.kept.size <= this.room) break;

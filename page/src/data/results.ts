@@ -37,7 +37,7 @@ export async function refresh(source: Source, results: Results): Promise<void> {
     return bytes === undefined || bytes.length === 0 ? undefined : readTable(new TextDecoder().decode(bytes));
   };
   for (let k = results.datums.length; k < results.run.datums; ++k) {
-    results.datums.push(readMotion((await source.chunk(`datum-${k}`))!, results.mesh.blocks));
+    results.datums.push(readMotion((await source.chunk(`datum-${k}`))!, results.mesh));
   }
   results.history = await text('history.csv');
   results.bolts = new BoltRows(await text('bolts.csv'));

@@ -55,9 +55,11 @@ export interface Run {
   /** Times in s. */
   frames: number[];
   datums: number;
+  /** Joints have broken. */
+  cracked: boolean;
   fields: Field[];
   /** Numbers of blocks that the frames have not, or that mean nothing in this run. */
-  absent: ('omega' | 'rotation' | 'overstress')[];
+  absent: ('omega' | 'rotation' | 'overstress' | 'plastic_strain' | 'yields' | 'strength_factor')[];
   /** What strokes of the usual length stand for, in all frames: N, Pa, Pa; pressures are those at the ends of faces. */
   usual: { force: number; stress: number; pressure: number };
   /** The largest in all frames; `tension` is that of the pressures that are none. */

@@ -3,7 +3,7 @@ import { type Beginnings, buffersOf, type Frame, readFrame } from './frame';
 import { fromBase64, inflate } from './inflate';
 import { Absent, GONE } from './source';
 
-/** First: where the blocks' edges begin. */
+/** First: what is needed of the mesh. */
 export type Setup = Beginnings;
 /** Then a frame at a time: base64, or where to fetch it. */
 export interface Job {
@@ -19,7 +19,7 @@ export interface Done {
   absent?: boolean;
 }
 
-let mesh: Beginnings = { edgeBegin: new Uint32Array(), reach: new Float64Array() };
+let mesh: Beginnings;
 
 async function unpack(job: Job): Promise<Frame> {
   if (job.text !== undefined) return readFrame(await inflate(fromBase64(job.text)), mesh);

@@ -68,7 +68,7 @@ export class Blocks {
   readonly rows: number;
 
   constructor(private readonly gl: WebGL2RenderingContext, mesh: Mesh) {
-    this.rows = Math.max(1, Math.ceil(mesh.blocks / WIDTH));
+    this.rows = Math.max(1, Math.ceil(mesh.parts / WIDTH));
     this.fill = twgl.createProgramInfo(gl, [FILL, FLAT]);
     this.edge = twgl.createProgramInfo(gl, [EDGE, ONE]);
     const r = { numComponents: 2, data: mesh.vertex };

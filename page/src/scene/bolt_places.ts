@@ -13,8 +13,8 @@ export class BoltPlaces {
   private rows: number[] = [];
 
   constructor(mesh: Mesh) {
-    this.real = new Pose(mesh, mesh.blocks);
-    this.plain = new Float32Array(mesh.blocks);
+    this.real = new Pose(mesh, mesh.parts);
+    this.plain = new Float32Array(mesh.parts);
   }
 
   /** x and y of each node from the scene's origin, in the blocks as `drawn`. */

@@ -100,9 +100,9 @@ export function drawContacts(layer: Strokes, frame: Frame, pose: Pose, mesh: Mes
   layer.upload();
 }
 
-/** Lines along the faces that touch, the largest values on top. */
+/** Lines along the faces that touch and open ones with a value, the largest values on top. */
 function drawFaces(layer: Strokes, contacts: Contacts, values: ArrayLike<number>, pose: Pose, mesh: Mesh, scale: Scale, size: number): void {
-  const order = Array.from(contacts.state.keys()).filter((k) => contacts.state[k] !== 0 && k < values.length);
+  const order = Array.from(contacts.state.keys()).filter((k) => (contacts.state[k] !== 0 || values[k] !== 0) && k < values.length);
   order.sort((a, b) => Math.abs(values[a]) - Math.abs(values[b]));
   const faces = order.map((k) => [...endsOf(contacts, k, pose, mesh).flat(), 3 * scale.step(values[k])]);
   for (const [ax, ay, bx, by] of faces) layer.add(ax, ay, bx, by, size, 27, 31, 39, 255, 1);
@@ -110,11 +110,25 @@ function drawFaces(layer: Strokes, contacts: Contacts, values: ArrayLike<number>
   layer.upload();
 }
 
-/** Two strokes along the principal directions of each block; `length`: m of the usual stress. */
+/** Lines along the faces that have broken, those in tension on top. */
+export function drawCracks(layer: Strokes, frame: Frame, pose: Pose, mesh: Mesh, c: Palette): void {
+  const { contacts } = frame;
+  layer.clear(contacts.count);
+  for (const [mode, ink] of [[2, c.compression], [1, c.tension]] as const) {
+    for (let k = 0; k < contacts.alongA.length; ++k) {
+      if (contacts.broken[k] !== mode) continue;
+      const [a, b] = endsOf(contacts, k, pose, mesh);
+      layer.add(...a, ...b, 3, ink[0], ink[1], ink[2]);
+    }
+  }
+  layer.upload();
+}
+
+/** Two strokes along the principal directions of each block or zone; `length`: m of the usual stress. */
 export function drawCrosses(layer: Strokes, frame: Frame, pose: Pose, mesh: Mesh, usual: number, length: number, c: Palette): void {
-  layer.clear(4 * mesh.blocks);
-  for (let b = 0; b < mesh.blocks && usual > 0; ++b) {
-    if (!pose.isAlive(b) || mesh.fixed[b]) continue;
+  layer.clear(4 * mesh.parts);
+  for (let b = 0; b < mesh.parts && usual > 0; ++b) {
+    if (!pose.isAlive(b) || mesh.fixed[b] || mesh.zoned[b]) continue;
     const { major, minor, angle } = principal(frame, b);
     const [x, y] = [pose.place[4 * b], pose.place[4 * b + 1]];
     for (const [stress, at] of [[major, angle], [minor, angle + Math.PI / 2]]) {
@@ -126,11 +140,11 @@ export function drawCrosses(layer: Strokes, frame: Frame, pose: Pose, mesh: Mesh
   layer.upload();
 }
 
-/** An arrow from each block's centre; `length`: m of one of `largest`, a few may be longer. */
+/** An arrow from the centre of each block or zone; `length`: m of one of `largest`, a few may be longer. */
 export function drawArrows(layer: Strokes, x: Float32Array, y: Float32Array, pose: Pose, mesh: Mesh, largest: number, length: number, c: Palette): void {
-  layer.clear(2 * mesh.blocks);
-  for (let b = 0; b < mesh.blocks && largest > 0; ++b) {
-    if (!pose.isAlive(b) || lengthOf(x[b], y[b]) < 1e-3 * largest) continue;
+  layer.clear(2 * mesh.parts);
+  for (let b = 0; b < mesh.parts && largest > 0; ++b) {
+    if (!pose.isAlive(b) || mesh.zoned[b] || lengthOf(x[b], y[b]) < 1e-3 * largest) continue;
     const [px, py] = [pose.place[4 * b], pose.place[4 * b + 1]];
     const s = length / Math.max(largest, lengthOf(x[b], y[b]) / LONGEST_BEYOND);
     stroke(layer, px, py, px + s * x[b], py + s * y[b], 1.6, c.ink, c);

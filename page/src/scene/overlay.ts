@@ -26,7 +26,7 @@ export interface OverlayOptions {
 /** A mark's points as they move with their blocks. */
 export interface Follower {
   name: string;
-  /** Per point: the block, and the place from its centre in the first frame; block -1: outside all. */
+  /** Per point: the part, and the place from its centre in the first frame; -1: outside all. */
   at: { row: number; rx: number; ry: number }[];
 }
 
@@ -55,7 +55,7 @@ export class Overlay {
   /** On any canvas whose units are pixels of the screen. */
   paint(g: CanvasRenderingContext2D, camera: Camera, pose: Pose, style: OverlayStyle, options: OverlayOptions): void {
     if (options.axes) drawAxes(g, camera, pose.origin, style);
-    if (options.selected >= 0 && pose.isAlive(options.selected)) this.outline(g, camera, pose, options.selected, style);
+    if (options.selected >= 0 && pose.isAlive(options.selected)) this.outline(g, camera, pose, this.mesh.block[options.selected], style);
     if (!options.marks) return;
     g.font = `600 12px ${style.font}`;
     this.paintMarks(g, camera, pose, style, options);
@@ -85,8 +85,9 @@ export class Overlay {
 
   /** As wide as shows the block inside it, where that is small. */
   private ringRadius(camera: Camera, pose: Pose, follower: Follower): number {
-    const { row } = follower.at[0];
+    const part = follower.at[0].row;
     const [least, most, rim] = [5, 16, 4];
+    const row = part < 0 ? part : this.mesh.block[part];
     if (row < 0 || this.mesh.reach[row] * camera.scale > most) return least;
     const [x, y] = this.place(camera, pose, follower, 0);
     const [cx, cy] = camera.px(...pose.point(row, 0, 0));
@@ -146,7 +147,7 @@ function label(g: CanvasRenderingContext2D, text: string, x: number, y: number, 
   g.fillText(text, x, y);
 }
 
-/** The block round each point, in the first frame; a point a rounding outside still counts. On a border it is one that
+/** The part round each point, in the first frame; a point a rounding outside still counts. On a border it is one that
  * is free before one that is held, then that of lowest id: as in the program. */
 function follow(mesh: Mesh, mark: Mark): Follower {
   const at = mark.points.map(([x, y]) => {

@@ -1,4 +1,4 @@
-// Where the blocks are drawn: x = p + M r, r from the block's centre in the first frame.
+// Where the parts, blocks and zones, are drawn: x = p + M r, r from the part's centre in the first frame.
 //
 //   p = c + D + m d - o,   M = I + B + m A
 //
@@ -9,7 +9,7 @@ import type { Mesh } from '../data/mesh';
 import type { Box } from './camera';
 
 export class Pose {
-  /** [4 nb] p.x p.y M.xx M.xy and M.yx M.yy colour alive: two texels of each block. */
+  /** [4 np] p.x p.y M.xx M.xy and M.yx M.yy colour alive: two texels of each part. */
   readonly place: Float32Array;
   readonly rest: Float32Array;
   readonly origin: [number, number];
@@ -32,7 +32,7 @@ export class Pose {
     const [dx, dy, xx, xy, yx, yy] = frame.motion;
     const [Dx, Dy, Bxx, Bxy, Byx, Byy] = datum;
     const { centre } = mesh;
-    for (let b = 0, k = 0; b < mesh.blocks; ++b, k += 4) {
+    for (let b = 0, k = 0; b < mesh.parts; ++b, k += 4) {
       place[k] = centre[2 * b] - ox + Dx[b] + m * dx[b];
       place[k + 1] = centre[2 * b + 1] - oy + Dy[b] + m * dy[b];
       place[k + 2] = 1 + Bxx[b] + m * xx[b];
@@ -75,11 +75,11 @@ export class Pose {
     return this.rest[4 * b + 3] !== 0;
   }
 
-  /** Of all blocks alive. */
+  /** Of all parts alive. */
   box(): Box {
     const box = { x0: Infinity, y0: Infinity, x1: -Infinity, y1: -Infinity };
     for (let v = 0; v < this.mesh.vertices; ++v) {
-      if (!this.isAlive(this.mesh.row[v])) continue;
+      if (!this.isAlive(this.mesh.row[v]) || this.mesh.zoned[this.mesh.row[v]]) continue;
       const [x, y] = this.vertex(v);
       box.x0 = Math.min(box.x0, x);
       box.x1 = Math.max(box.x1, x);
@@ -89,7 +89,7 @@ export class Pose {
     return box.x0 <= box.x1 ? box : { x0: -1, y0: -1, x1: 1, y1: 1 };
   }
 
-  /** The block that is drawn at (x, y), or -1: the one whose outline goes round it. `first` is tried before the others. */
+  /** The part that is drawn at (x, y), or -1: the one whose outline goes round it. `first` is tried before the others. */
   blockAt(x: number, y: number, first = -1): number {
     const { mesh } = this;
     if (first >= 0 && this.isAlive(first)) {
@@ -103,7 +103,7 @@ export class Pose {
     }
     return -1;
   }
-  /** Where the triangles of a block begin: they are in the order of the blocks. */
+  /** Where the triangles of a part begin: they are in the order of the parts. */
   private trianglesFrom(b: number): number {
     const { row, triangles } = this.mesh;
     let [low, high] = [0, triangles.length / 3];

@@ -27,6 +27,7 @@ export interface Shown {
   usualForce: number;
   /** Pa, of a pressure of the usual height. */
   usualPressure: number;
+  cracks: boolean;
   crosses: boolean;
   /** Pa, the same for stresses. */
   usualStress: number;
@@ -63,6 +64,7 @@ export class View {
   private readonly forceStrokes: Strokes;
   private readonly pressureAreas: Areas;
   private readonly pressureRims: Strokes;
+  private readonly crackStrokes: Strokes;
   private readonly crossStrokes: Strokes;
   private readonly arrowStrokes: Strokes;
   private readonly boltStrokes: Strokes;
@@ -78,11 +80,12 @@ export class View {
     this.gl = gl;
     this.blocks = new Blocks(gl, mesh);
     this.pose = new Pose(mesh, WIDTH * this.blocks.rows);
-    this.colours = new Float32Array(mesh.blocks);
+    this.colours = new Float32Array(mesh.parts);
     this.contactDots = new Strokes(gl);
     this.forceStrokes = new Strokes(gl);
     this.pressureAreas = new Areas(gl);
     this.pressureRims = new Strokes(gl);
+    this.crackStrokes = new Strokes(gl);
     this.crossStrokes = new Strokes(gl);
     this.arrowStrokes = new Strokes(gl, 4);
     this.boltStrokes = new Strokes(gl);
@@ -109,6 +112,7 @@ export class View {
       layers.drawPressures(this.pressureAreas, this.pressureRims, frame, this.pose, this.mesh, shown.usualPressure, PRESSURE * size, LEAST_LENGTH * size, theme);
       layers.drawForces(this.forceStrokes, frame, this.pose, this.mesh, shown.usualForce, FORCE * size, theme);
     }
+    if (shown.cracks) layers.drawCracks(this.crackStrokes, frame, this.pose, this.mesh, theme);
     if (shown.crosses) layers.drawCrosses(this.crossStrokes, frame, this.pose, this.mesh, shown.usualStress, CROSS * size, theme);
     if (shown.vectors !== 'none') {
       const [x, y] = shown.vectors === 'velocity' ? [frame.vx, frame.vy] : frame.motion;
@@ -137,6 +141,7 @@ export class View {
       const fade = Math.min(1, (size - LEAST_EDGE) / 12);
       this.blocks.drawEdges(view, [...unit(theme.edge), 0.15 + 0.6 * fade]);
     }
+    if (shown.cracks) this.crackStrokes.draw(view);
     if (shown.crosses) this.crossStrokes.draw(view);
     if (shown.forces) {
       this.pressureAreas.draw(view);
@@ -175,11 +180,11 @@ export class View {
   }
 }
 
-/** Median over the free blocks of the root of their area, m. */
+/** Median over the free parts of the root of their area, m. */
 function typicalSize(mesh: Mesh): number {
-  const { area } = mesh;
-  const free = area.filter((_, b) => !mesh.fixed[b]);
-  const sorted = (free.length > 0 ? free : area.slice()).sort();
+  const area = mesh.area.filter((_, b) => !mesh.zoned[b]);
+  const free = mesh.area.filter((_, b) => !mesh.zoned[b] && !mesh.fixed[b]);
+  const sorted = (free.length > 0 ? free : area).sort();
   return Math.sqrt(sorted[sorted.length >> 1] ?? 1);
 }
 

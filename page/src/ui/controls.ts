@@ -26,6 +26,7 @@ export class Controls {
     select.replaceChildren(make('option', 'nothing', { value: 'none' }), group('blocks', 'blocks'), group('contacts', 'contacts'));
     select.value = 'displacement';
     this.chooseRange();
+    byId('cracks').parentElement!.hidden = !results.run.cracked && !results.run.served;
     byId('bolts').parentElement!.hidden = !results.bolts.any && !results.run.served;
     byId('marks').parentElement!.hidden = results.run.monitors.length + results.run.convergences.length === 0;
     this.listen();
@@ -45,6 +46,9 @@ export class Controls {
   }
   get forces(): boolean {
     return checkbox('forces');
+  }
+  get cracks(): boolean {
+    return checkbox('cracks') && this.results.run.cracked;
   }
   get crosses(): boolean {
     return checkbox('crosses');
@@ -83,7 +87,7 @@ export class Controls {
     const sizes = frame.motion[0].map((ux, b) => Math.hypot(ux, frame.motion[1][b]));
     const largest = drawnEnds(sizes, this.weights(frame))[1];
     let [x0, x1, y0, y1] = [Infinity, -Infinity, Infinity, -Infinity];
-    for (let b = 0; b < mesh.blocks; ++b) {
+    for (let b = 0; b < mesh.parts; ++b) {
       x0 = Math.min(x0, mesh.centre[2 * b]);
       x1 = Math.max(x1, mesh.centre[2 * b]);
       y0 = Math.min(y0, mesh.centre[2 * b + 1]);
@@ -97,9 +101,10 @@ export class Controls {
   get wholeRange(): boolean {
     return byId<HTMLSelectElement>('range').value.startsWith('whole');
   }
-  /** How much each block counts where a few may be left out. */
+  /** How much each block or zone counts where a few may be left out. */
   private weights(frame: Frame): Float64Array {
-    return this.results.mesh.area.map((area, b) => (frame.alive[b] && !this.held[b] ? area : 0));
+    const { area: areas, zoned } = this.results.mesh;
+    return areas.map((area, b) => (frame.alive[b] && !this.held[b] && !zoned[b] ? area : 0));
   }
 
   /** Of the faces, m. */
@@ -173,7 +178,7 @@ export class Controls {
   }
 
   private listen(): void {
-    for (const id of ['field', 'range', 'vectors', 'edges', 'contacts', 'forces', 'crosses', 'bolts', 'marks', 'axes', 'low', 'high']) {
+    for (const id of ['field', 'range', 'vectors', 'edges', 'contacts', 'forces', 'cracks', 'crosses', 'bolts', 'marks', 'axes', 'low', 'high']) {
       byId(id).addEventListener('change', () => {
         if (id === 'range') this.rangeIsChosen = true;
         if (id === 'field') this.chooseRange();

@@ -64,7 +64,7 @@ export class Plots {
       pairs.push([value, text]);
       this.drawn.set(value, show);
     };
-    if (this.block >= 0) add('block', `block ${this.results.mesh.id[this.block]}: ${this.blockField().label}`, () => void this.showBlock(this.reading));
+    if (this.block >= 0) add('block', `${this.block < this.results.mesh.blocks ? '' : 'zone of '}block ${this.results.mesh.id[this.block]}: ${this.blockField().label}`, () => void this.showBlock(this.reading));
     if (history !== undefined) {
       add('energy', 'energies', () => this.showColumns(ENERGIES.map((e) => [e, e]), 'J'));
       add('drift', 'energy balance error', () => this.showColumns([['drift', 'drift']], ''));

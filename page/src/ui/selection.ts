@@ -12,7 +12,10 @@ export interface ValueRow {
   unit: string;
 }
 
-/** Of block `b` at a frame. Positions as they are, whatever the magnification. */
+/** How a zone yields, by number. */
+export const yieldsIn = ['no', 'in shear', 'in tension', 'along its foliation'];
+
+/** Of a block or zone `b` at a frame. Positions as they are, whatever the magnification. */
 export function valuesOf(run: Run, mesh: Mesh, frame: Frame, datum: Motion, b: number): ValueRow[] {
   const [ux, uy] = [frame.motion[0][b], frame.motion[1][b]];
   const p = principal(frame, b);
@@ -37,6 +40,9 @@ export function valuesOf(run: Run, mesh: Mesh, frame: Frame, datum: Motion, b: n
     ['smallest principal', p.minor, 'Pa'],
     ['overstress', frame.overstress[b], ''],
   ];
+  if (b >= mesh.blocks) {
+    rows.push(['plastic_strain', frame.plastic[b], ''], ['strength_factor', frame.strength[b], ''], ['yields', yieldsIn[frame.yields[b]] ?? '', '']);
+  }
   return rows.map(([name, value, unit]) => ({ name, value, unit }));
 }
 

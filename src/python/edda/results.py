@@ -174,16 +174,18 @@ class Frame:
 
     time: s. points: (n, 2) corners, m. cells: per block the rows of the corners of its outer ring. point_fields and
     cell_fields: arrays by name; frame["stress"] is a cell field. There is one row per block, or per contact, in the
-    order of frame["id"]: blocks that have been excavated have none.
+    order of frame["id"]: blocks that have been excavated have none. Of a block with zones it has their mean over the area.
 
     Cell fields of blocks: id, material (row of Model.materials, -1: none), fixed (0 or 1), rotation (rad), omega
     (rad/s), overstress: (rows,); displacement (m), velocity (m/s): (rows, 3), x y z, of the centroid; stress (Pa,
     tension positive): (rows, 6), xx yy zz xy yz xz; principal_stress (Pa): (rows, 3), major (most tensile) and minor
-    (most compressive) in the plane, and out of it. Point fields: displacement (m), velocity (m/s): (n, 3).
+    (most compressive) in the plane, and out of it; in a run with zones plastic_strain, strength_factor (nan without a
+    strength) and, of the first zone, yields: (rows,). Point fields: displacement (m), velocity (m/s): (n, 3).
 
     Cell fields of contacts: block_i, block_j, state (0 open, 1 stick, 2 slide, 3 bonded), normal_force,
     shear_force (N), opening, slip, length, closed_length (m), normal_stress (Pa, compression positive),
-    normal_stress_a, normal_stress_b (at the ends), shear_stress (Pa), x_a, y_a, x_b, y_b (m): (rows,); force (N, on
+    normal_stress_a, normal_stress_b (at the ends), shear_stress (Pa), damage, broken_by (0 unbroken, 1 tension,
+    2 shear), x_a, y_a, x_b, y_b (m): (rows,); force (N, on
     block i), displacement (m): (rows, 3).
     """
 
@@ -199,6 +201,12 @@ class Frame:
         self.cells: list[NDArray[np.int64]] = [max(rings, key=self._area) for rings in self._rings]
         self.point_fields: dict[str, NDArray[Any]] = arrays["PointData"]
         self.cell_fields: dict[str, NDArray[Any]] = {name: values[first] for name, values in fields.items()}
+        if "plastic_strain" in fields and len(first) < len(pieces):
+            areas = np.array([self._area(piece) for piece in pieces])
+            for name, values in fields.items():
+                if np.issubdtype(values.dtype, np.floating):
+                    weights = areas.reshape(-1, *[1] * (values.ndim - 1))
+                    self.cell_fields[name] = np.add.reduceat(weights * values, first) / np.add.reduceat(weights, first)
 
     def __getitem__(self, name: str) -> NDArray[Any]:
         if name not in self.cell_fields:
