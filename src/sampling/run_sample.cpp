@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
 
@@ -25,14 +26,12 @@ namespace {
 using nlohmann::json;
 
 constexpr std::string_view unstable = "unstable", unlimited = "unlimited";
-constexpr std::string_view history = "history.";
-
-/// The results of one analysis of a sample: a summary, and the history of a run.
+/// The results of one analysis of a sample: a summary, and the tables of a run.
 struct Analysed {
   std::string summary;
-  std::string word;  ///< in place of its main value
-  std::optional<Table> history{};
-  std::string places{};  ///< of plan.map
+  std::string word;                       ///< in place of its main value
+  std::string places{};                   ///< of plan.map
+  std::map<std::string, Table> tables{};  ///< by name
 };
 
 std::string first_of(const Faults& faults) {
@@ -63,10 +62,22 @@ const json* step_into(const json& node, std::string_view& path) {
   return nullptr;
 }
 
-std::string in_history(const Table& table, const Ask& ask) {
-  const Column* column = table.column(ask.value.substr(history.size()));
+/// The value at a time, linear between rows; empty where the table does not reach it.
+std::string at_time(const std::vector<double>& times, const std::vector<double>& values,
+                    double at) {
+  const auto after = std::find_if(times.begin(), times.end(), [&](double t) { return t >= at; });
+  if (after == times.end() || at < times.front()) return {};
+  const auto n = static_cast<std::size_t>(after - times.begin());
+  if (times[n] == at) return shortest(values[n]);
+  const double part = (at - times[n - 1]) / (times[n] - times[n - 1]);
+  return shortest(values[n - 1] + part * (values[n] - values[n - 1]));
+}
+
+std::string in_table(const Table& table, const Ask& ask) {
+  const Column* column = table.column(ask.value.substr(table_asked(ask).size() + 1));
   if (column == nullptr || column->values.empty()) return {};
   const std::vector<double>& v = column->values;
+  if (ask.at) return at_time(table.column("time")->values, v, *ask.at);
   if (ask.take == Taken::largest) return shortest(*std::max_element(v.begin(), v.end()));
   if (ask.take == Taken::smallest) return shortest(*std::min_element(v.begin(), v.end()));
   return shortest(v.back());
@@ -105,7 +116,7 @@ Result<Analysed> analyse_key_blocks(const Model& model, const StudyPlan& plan) {
   std::vector<AtPlace> there;
   for (const auto& generation : found.value().at_place)
     there.push_back(what_is_at(generation, plan.map->generations));
-  return Analysed{key_blocks_summary(model, found.value()), {}, {}, places_text(there)};
+  return Analysed{key_blocks_summary(model, found.value()), {}, places_text(there)};
 }
 
 Result<Analysed> analyse_run(Model model, const std::string& scratch) {
@@ -118,8 +129,10 @@ Result<Analysed> analyse_run(Model model, const std::string& scratch) {
   const Result<std::string> summary = read_file(scratch + "/summary.json");
   if (!summary.ok()) return summary.faults();
   Analysed a{summary.value(), {}};
-  if (const Result<Table> table = read_table(scratch + "/history.csv"); table.ok())
-    a.history = table.value();
+  for (const std::string name : {"history", "reactions"}) {
+    if (const Result<Table> table = read_table(scratch + "/" + name + ".csv"); table.ok())
+      a.tables[name] = table.value();
+  }
   std::error_code error;
   std::filesystem::remove_all(scratch, error);
   return a;
@@ -169,7 +182,8 @@ Fault in_study(const StudyPlan& plan, Fault fault) {
 }
 
 std::string cell_of(const Analysed& a, const Ask& ask) {
-  if (a.history && ask.value.starts_with(history)) return in_history(*a.history, ask);
+  if (const auto table = a.tables.find(std::string(table_asked(ask))); table != a.tables.end())
+    return in_table(table->second, ask);
   const std::string value = value_in(a.summary, ask.value);
   return value.empty() ? a.word : value;
 }
@@ -225,7 +239,8 @@ SampleAnswer run_sample(const StudyPlan& plan, std::string_view model_text,
       if (!asks(ask)) continue;
       answer.cells[i] = cell_of(made.value(), ask);
       if (answer.cells[i].empty())
-        answer.message = fmt::format("there is no {} in the results", ask.value);
+        answer.message = fmt::format("there is no {}{} in the results", ask.value,
+                                     ask.at ? fmt::format(" at {} s", shortest(*ask.at)) : "");
     }
     if (plan.map && analysis == Analysis::keyblocks) answer.cells.back() = made.value().places;
   }

@@ -158,6 +158,22 @@ class Examples(Program):
         self.assertGreater(max(loads) / 6, 20e6)    # N/m2
         self.assertLess(loads[-1], 0.85 * max(loads))
 
+    def test_disc_splits(self):
+        # Grains of 4.5 in place of 2.7 mm.
+        _, folder = self.ran("brazilian-disc", "--set", "voronoi.size=4.5 mm")
+        force = [float(row["base.fy"]) for row in self.rows(folder / "reactions.csv")]
+        self.assertAlmostEqual(2 * max(force) / (math.pi * 0.054) / 10e6, 1, delta=0.1)
+        self.assertLess(force[-1], 0.75 * max(force))
+        rows = self.rows(folder / "history.csv")
+        self.assertGreater(max(float(row["middle.mean_sxx"]) for row in rows), 6.5e6)
+        self.assertLess(float(rows[-1]["middle.mean_sxx"]), 1e6)
+        self.assertLess(max(abs(float(row["drift"])) for row in rows), 1e-5)
+        self.assertGreater(int(rows[-1]["cracks_tension"]), 15)
+        # Its halves move apart.
+        for block in self.rows(folder / "blocks.csv"):
+            if abs(float(block["x"])) > 0.01 and abs(float(block["y"])) < 0.015:
+                self.assertGreater(float(block["ux"]) * math.copysign(1, float(block["x"])), 2e-5)
+
     def test_footing_breaks_through(self):
         _, folder = self.ran("footing")
         _, intact = self.ran("footing", "--set", "joint_set=[]", out="intact")

@@ -308,6 +308,63 @@ below = -1e-3
             self.assertEqual((row["nothing"], row["message"]), ("", "there is no energy.magic in the results"))
         self.assertEqual(list((self.dir / "s").glob("**/frames")), [])
 
+    def test_a_run_in_time_is_asked_for_the_force_of_a_boundary_at_a_time(self):
+        (self.dir / "ramp.csv").write_text("time,factor\n0,0\n0.1,1\n0.12,0.5\n")
+        (self.dir / "pressed.toml").write_text("""
+gravity = [0, 0]
+[materials.rock]
+density = 2600
+young = "10 GPa"
+poisson = 0.25
+[joints.smooth]
+friction_angle = 30
+[contact]
+joint = "smooth"
+[[block]]
+polygon = [[0, 0], [2, 0], [2, 1], [0, 1]]
+[[boundary]]
+name = "base"
+sides = ["bottom"]
+type = "roller"
+[[load]]
+name = "press"
+along = [[0, 1], [2, 1]]
+pressure = "1 MPa"
+history = "ramp.csv"
+[solver]
+duration = 0.12
+[output]
+history_every = 0.007
+""")
+        (self.dir / "p.toml").write_text("""
+model = "pressed.toml"
+[sampling]
+method = "grid"
+[vary.pressure]
+key = "load.press.pressure"
+values = [1e6, 3e6]
+[ask.half]
+of = "run"
+value = "reactions.base.fy"
+at = "50 ms"
+[ask.peak]
+of = "run"
+value = "reactions.base.fy"
+take = "largest"
+[ask.last]
+of = "run"
+value = "reactions.base.fy"
+[ask.never]
+of = "run"
+value = "reactions.base.fy"
+at = "1 s"
+""")
+        self.expect(0, "study", "p.toml")
+        for pressure, row in zip((1e6, 3e6), read_rows(self.dir / "p/study.csv")):
+            for name, part in {"half": 0.5, "peak": 0.98, "last": 0.5}.items():
+                self.assertAlmostEqual(float(row[name]) / (2 * pressure), part, delta=5e-3, msg=name)
+            self.assertEqual((row["never"], row["message"]), ("", "there is no reactions.base.fy at 1 s in the results"))
+
     def test_how_often_a_place_belongs_to_a_key_block(self):
         (self.dir / "slide.toml").write_text(SLIDE + '[[monitor]]\nname = "toe"\npoint = [2, 2]\n')
         text = study('method = "monte-carlo"\nsamples = 40', FRICTION)

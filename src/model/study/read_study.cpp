@@ -104,7 +104,7 @@ void complete_ask(const Completing& c) {
               "add [ask.NAME] with of = \"limit\", \"fos\", \"keyblocks\" or \"run\"");
   for (Ask& a : c.plan.ask) {
     const Value* table = find(all, a.name);
-    const bool history = a.value.starts_with("history.");
+    const std::string asked(table_asked(a));
     if (a.value.empty() && a.of == Analysis::fos) a.value = "factor_of_safety";
     if (a.value.empty() && a.of == Analysis::limit) a.value = "limit.lower";
     if (a.value.empty() && a.of == Analysis::keyblocks) a.value = "key_area";
@@ -112,11 +112,15 @@ void complete_ask(const Completing& c) {
       c.fault(table, "value", "ask." + a.name, "is missing",
               "name a value of summary.json, such as \"energy.friction\", or a column, such as "
               "\"history.crest.ux\"");
-    if (history && a.of != Analysis::run)
-      c.fault(table, "value", "ask." + a.name, fmt::format("{} has no history", word_of(a.of)),
+    if (!asked.empty() && a.of != Analysis::run)
+      c.fault(table, "value", "ask." + a.name, fmt::format("{} has no {}", word_of(a.of), asked),
               "ask of = \"run\"");
-    if (a.take != Taken::last && !history)
+    if (a.take != Taken::last && asked.empty())
       c.fault(table, "take", "ask." + a.name, "is nothing of a single value", "leave it out");
+    if (a.at && asked.empty())
+      c.fault(table, "at", "ask." + a.name, "is nothing of a single value", "leave it out");
+    if (a.at && a.take != Taken::last)
+      c.fault(table, "at", "ask." + a.name, "is given beside take", "give one of the two");
     if (std::any_of(c.plan.vary.begin(), c.plan.vary.end(),
                     [&](const Vary& v) { return v.name == a.name; }) ||
         a.name == "sample" || a.name == "failed" || a.name == "message")

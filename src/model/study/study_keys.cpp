@@ -59,8 +59,9 @@ constexpr std::array correlated_keys{
 
 constexpr std::array ask_keys{
     Key{"of", at<&Ask::of>, choice, required, "The analysis made of each sample: a run in time, the factor of safety, rigid limit analysis, or block theory."},
-    Key{"value", at<&Ask::value>, naming, otherwise("of fos \"factor_of_safety\", of limit \"limit.lower\", of keyblocks \"key_area\"; required of run"), "What is asked of it: a value of its summary.json, with the names of the tables around it before (\"energy.friction\"), or of a run a column of history.csv (\"history.crest.ux\")."},
-    Key{"take", at<&Ask::take>, choice, initial, "Of a column of history.csv: its last, largest or smallest value."},
+    Key{"value", at<&Ask::value>, naming, otherwise("of fos \"factor_of_safety\", of limit \"limit.lower\", of keyblocks \"key_area\"; required of run"), "What is asked of it: a value of its summary.json, with the names of the tables around it before (\"energy.friction\"), or of a run a column of history.csv (\"history.crest.ux\") or of reactions.csv (\"reactions.base.fy\")."},
+    Key{"take", at<&Ask::take>, choice, initial, "Of a column: its last, largest or smallest value."},
+    Key{"at", at<&Ask::at>, number(D::time), otherwise("none"), "In place of take: the column's value at this time, linear between its rows."},
     Key{"measured", at<&Ask::measured>, number(D::plain), otherwise("none"), "Method fit: what was measured."},
     Key{"error", at<&Ask::error>, number(D::plain, above(0)), otherwise("required with measured"), "Method fit: standard deviation of the measurement."},
 };

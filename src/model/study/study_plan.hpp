@@ -88,11 +88,18 @@ struct Correlated {
 struct Ask {
   std::string name;
   Analysis of = Analysis::limit;
-  std::string value;  ///< path in summary.json, or a column of history.csv
+  std::string value;  ///< path in summary.json, or a column of history.csv or reactions.csv
   Taken take = Taken::last;
+  std::optional<double> at{};                 ///< s: the column's value at that time
   std::optional<double> measured{}, error{};  ///< of method fit; error: standard deviation
   Where where;
 };
+
+/// "history" or "reactions" where a column of that table of a run is asked; else empty.
+inline std::string_view table_asked(const Ask& ask) {
+  const std::string_view table = std::string_view(ask.value).substr(0, ask.value.find('.'));
+  return table == "history" || table == "reactions" ? table : std::string_view();
+}
 
 /// When a sample counts as a failure.
 struct FailureCriterion {
