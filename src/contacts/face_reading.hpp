@@ -107,6 +107,20 @@ inline FaceSpan span_of(const FaceRow& r, const Pose& pose) {
   const Vec2 middle = at(0.5 * (xi_a + xi_b));
   return {middle, middle};
 }
+/// The whole `edge` of a face.
+inline FaceSpan edge_of(const FaceRow& r, const Pose& pose) {
+  const FaceSet& f = r.of;
+  return {{pose.x[f.edge[r.k]], pose.y[f.edge[r.k]]},
+          {pose.x[f.edge_end[r.k]], pose.y[f.edge_end[r.k]]}};
+}
+/// Between the middles of both edges of a face that have come apart, m.
+inline double distance_apart(const FaceRow& r, const Pose& pose) {
+  const FaceSet& f = r.of;
+  const Vec2 q1{pose.x[f.facing[r.k]], pose.y[f.facing[r.k]]},
+      q2{pose.x[f.facing_end[r.k]], pose.y[f.facing_end[r.k]]};
+  const FaceSpan edge = edge_of(r, pose);
+  return 0.5 * norm(q1 + q2 - edge.a - edge.b);
+}
 inline Vec2 middle_of(const FaceRow& r, const Pose& pose) {
   const FaceSpan span = span_of(r, pose);
   return 0.5 * (span.a + span.b);

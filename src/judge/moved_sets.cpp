@@ -101,7 +101,7 @@ double strain_at_yield(const Simulation& sim, Id i) {
   for (std::uint32_t z = b.meshes.zone_begin[i]; z < b.meshes.zone_begin[i + 1]; ++z) {
     const auto yielding = static_cast<Yielding>(zones.yielding[z]);
     if (yielding == Yielding::nowhere || yielding == Yielding::in_tension) continue;
-    const auto [xx, yy, zz, xy] = zones.stress[z];
+    const auto [xx, yy, zz, xy] = zones.state[z].stress;
     const double mean = 0.5 * (xx + yy), radius = std::hypot(0.5 * (xx - yy), xy);
     const double v = sim.scene->zones.shape[z].volume;
     sum += v * (std::max(mean + radius, zz) - std::min(mean - radius, zz));

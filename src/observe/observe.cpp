@@ -102,17 +102,18 @@ ContactRecord face_record(const Simulation& sim, const FaceRow& row) {
   r.joint = "glued";
   if (law < sim.scene->model.joints.size()) r.joint = sim.scene->model.joints[law].name;
   r.table = b.table_of(f.edge[k], f.facing[k]);
-  r.position = middle_of(row, sim.motion.pose) + b.origin;
-  const FaceSpan span = span_of(row, sim.motion.pose);
+  const bool apart = f.is_broken(k) && !(row.state.length > 0.0);
+  const FaceSpan span = apart ? edge_of(row, sim.motion.pose) : span_of(row, sim.motion.pose);
+  r.position = 0.5 * (span.a + span.b) + b.origin;
   r.a = span.a + b.origin;
   r.b = span.b + b.origin;
   r.length = row.state.length;
-  const double eta = 0.5 * (row.state.eta_a + row.state.eta_b);
+  const double eta = apart ? 0.5 : 0.5 * (row.state.eta_a + row.state.eta_b);
   const State& s = sim.motion.state;
   r.displacement = (1.0 - eta) * displacement_of_corner(b, s, f.facing_end[k]) +
                    eta * displacement_of_corner(b, s, f.facing[k]);
-  r.opening = -closure_of(row);
-  r.slip = slip_since_start(b, row);
+  r.opening = apart ? distance_apart(row, sim.motion.pose) : -closure_of(row);
+  r.slip = apart ? 0.0 : slip_since_start(b, row);
   r.ever_slipped = row.slipped;
   r.ever_opened = row.opened;
   add_crack(r, sim, k);
@@ -202,6 +203,7 @@ void record_zones(const Simulation& sim, Picture& p) {
       if (has_strength(rock))
         r.strength_factor =
             std::min(strength_factor(rock, slip, state.stress), largest_strength_factor);
+      if (!zones.pore.empty()) r.pore_pressure = zones.pore[z];
       p.zones.push_back(r);
     }
   }

@@ -9,7 +9,6 @@
 #include "model/files/accelerogram.hpp"
 #include "model/stage_names.hpp"
 #include "observe/resting.hpp"
-#include "step/labels.hpp"
 
 namespace edda {
 namespace {
@@ -97,41 +96,6 @@ void warn_of_dry_waters(const Simulation& sim, std::vector<std::string>& warning
         "{}: the table lies below all faces of free blocks: it has no effect; check its level",
         water.where.key));
   }
-}
-
-/// Walls of dry openings in rock whose pores have the pressure of the table: no flow draws it down.
-void warn_of_wet_walls(const Simulation& sim, std::vector<std::string>& warnings) {
-  const BlockSet& b = sim.scene->blocks;
-  const Meshes& m = b.meshes;
-  const std::vector<double>& pore = sim.motion.zones.pore;
-  if (pore.empty()) return;
-  std::vector<std::uint8_t> wet(b.vertex_count(), 0);
-  for (const WetEdge& e : sim.attached.loads.wet) wet[e.edge] = 1;
-  double most = 0.0;
-  Vec2 place;
-  for (Id i = 0; i < b.size(); ++i) {
-    if (!b.is_meshed(i)) continue;
-    const std::uint32_t first = m.begin[i];
-    const Id corners = b.vertex_begin[i + 1] - b.vertex_begin[i];
-    for (std::uint32_t z = m.zone_begin[i]; z < m.zone_begin[i + 1]; ++z) {
-      if (pore[z] <= most) continue;
-      for (std::size_t k = 0; k < corners_of_zone; ++k) {
-        const std::uint32_t j = m.zone[z][k] - first,
-                            next = m.zone[z][(k + 1) % corners_of_zone] - first;
-        if (j >= corners || next >= corners) continue;
-        const Id v = b.vertex_begin[i] + j;
-        if (b.next[v] != b.vertex_begin[i] + next || wet[v] != 0) continue;
-        most = pore[z];
-        place = 0.5 * (b.vertex(v) + b.vertex(b.next[v])) + b.origin;
-      }
-    }
-  }
-  if (most == 0.0) return;
-  warnings.push_back(fmt::format(
-      "water: rock at the dry wall at {} keeps the pore pressure of the table, up to {:.3g} MPa, "
-      "since no flow is computed: draw the table down to the opening, or name it as flooded, or "
-      "give the material pore_pressure = false",
-      place_label(place), 1e-6 * most));
 }
 
 /// [stages] Whether the element of this name acts.
@@ -264,7 +228,6 @@ std::vector<std::string> unused_names(const Simulation& sim) {
                "no block is made of it", warnings);
   warn_of_bolts_in_one_block(sim, warnings);
   warn_of_dry_waters(sim, warnings);
-  warn_of_wet_walls(sim, warnings);
   warn_of_idle_shakings(sim, warnings);
   warn_of_lost_support(sim, warnings);
   return warnings;

@@ -75,6 +75,7 @@ constexpr std::array recipes{
     Recipe{"yields", "yields", "whether the rock yields", "", kinds, false, first},
     Recipe{"strength_factor", "strength_factor", "strength factor of the rock", "", numbers, false,
            first},
+    Recipe{"pore_pressure", "pore_pressure", "pore pressure", "Pa", numbers, false, first},
     Recipe{"normal_force", "normal_force", "normal force of contacts", "N", numbers, true, first},
     Recipe{"shear_force", "shear_force", "shear force of contacts", "N", numbers, true, first},
     Recipe{"opening", "opening", "opening of contacts", "m", numbers, true, first},

@@ -150,6 +150,7 @@ void add_block_fields(std::vector<FieldSource>& into, const Picture& picture,
     zone.number("plastic_strain", [](const ZoneRecord& z) { return z.plastic_strain; });
     zone.whole("yields", [](const ZoneRecord& z) { return z.yields; });
     zone.number("strength_factor", [](const ZoneRecord& z) { return z.strength_factor; });
+    zone.number("pore_pressure", [](const ZoneRecord& z) { return z.pore_pressure; });
   }
   f.number("overstress", [](const B& b) { return b.overstress; });
 }

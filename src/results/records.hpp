@@ -69,6 +69,7 @@ struct ZoneRecord {
   int yields = 0;  ///< at this time: 1 in shear, 2 in tension, 3 along the foliation; 0: not
   /// By which Mohr's circle may grow until the rock yields; none where it has no strength.
   double strength_factor = std::numeric_limits<double>::quiet_NaN();
+  double pore_pressure = 0.0;  ///< Pa; stresses are total ones
 };
 
 /// Everything at one time.

@@ -17,6 +17,7 @@
 #include "observe/model_warnings.hpp"
 #include "observe/resting.hpp"
 #include "observe/unused_names.hpp"
+#include "observe/wet_rock.hpp"
 #include "run/driver.hpp"
 #include "run/size_limits.hpp"
 #include "run/stages.hpp"
@@ -142,6 +143,7 @@ Result<PreparedRun> prepared(Model model, BlockOrder order, ReadFor what_for) {
   for (std::string& warning : implausible(run.sim.scene->model))
     run.warnings.push_back(std::move(warning));
   for (std::string& warning : unused_names(run.sim)) run.warnings.push_back(std::move(warning));
+  warn_of_wet_rock(run.sim, run.warnings);
   for (std::string& warning : model_warnings(run.sim)) run.warnings.push_back(std::move(warning));
   for (std::string& warning : on_borders) run.warnings.push_back(std::move(warning));
   const std::vector<BlockGroup> falling = unsupported_blocks(run.sim);

@@ -159,6 +159,12 @@ double replace_force(const BlockSet& b, double h, Zones& all, std::uint32_t z,
   return change;
 }
 
+/// The stress of zone z, in which water in its pores acts out of plane, too.
+void set_stress(Zones& all, std::uint32_t z, const std::array<double, 4>& stress) {
+  all.stress[z] = stress;
+  if (!all.pore.empty()) all.stress[z][2] -= all.pore[z] * std::exp(-all.swelling[z]);
+}
+
 void replace_stored(Zones& all, std::size_t p, double stored, double change) {
   all.stored_between[p] = 0.5 * (all.stored[p] + stored) + 0.25 * change;
   all.stored[p] = stored;
@@ -183,7 +189,7 @@ void evaluate_pair(const ZoneModel& model, const BlockSet& b, double h, Zones& a
     const std::uint32_t z = zone[q];
     change += replace_force(b, h, all, z, result[q].force);
     all.state[z] = state[q];
-    all.stress[z] = result[q].stress;
+    set_stress(all, z, result[q].stress);
     all.yielding[z] = static_cast<std::uint8_t>(result[q].yielding);
     stored += result[q].stored;
     all.dissipated[p] += result[q].dissipated;
@@ -202,10 +208,12 @@ void take_elastic(const PairResults& r, std::size_t at, const ZoneModel& model, 
     for (std::size_t k = 0; k < corners_of_zone; ++k)
       force[k] = {r.force_x[q][k][at], r.force_y[q][k][at]};
     change += replace_force(b, h, all, z, force);
-    for (std::size_t c = 0; c < 4; ++c) {
+    std::array<double, 4> stress;
+    for (std::size_t c = 0; c < stress.size(); ++c) {
       all.state[z].stress[c] = r.remembered[q][c][at];
-      all.stress[z][c] = r.stress[q][c][at];
+      stress[c] = r.stress[q][c][at];
     }
+    set_stress(all, z, stress);
     all.yielding[z] = static_cast<std::uint8_t>(Yielding::nowhere);
   }
   replace_stored(all, p, r.stored[at], change);

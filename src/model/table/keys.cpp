@@ -148,7 +148,7 @@ constexpr std::array initial_stress_keys{
     Key{"stress", at<&InitialStress::stress>, shape(Kind::triple, D::stress), otherwise("none; either this or k0"), "Total stress xx, yy and xy at y = at_y, positive in tension."},
     Key{"at_y", at<&InitialStress::at_y>, number(D::length), otherwise("0"), "Level for which the stress is given."},
     Key{"gradient", at<&InitialStress::gradient>, shape(Kind::triple, D::stress_gradient), otherwise("[0, 0, 0]"), "Increase of xx, yy and xy per metre of y."},
-    Key{"k0", at<&InitialStress::k0>, number(D::plain, from(0)), otherwise("none; either this or stress"), "Horizontal over vertical stress; the vertical one is the weight of the rock above."},
+    Key{"k0", at<&InitialStress::k0>, number(D::plain, from(0)), otherwise("none; either this or stress"), "Horizontal over vertical stress, total ones where there is water; the vertical one is the weight of the rock above."},
     Key{"k0_out", at<&InitialStress::k0_out>, number(D::plain, from(0)), otherwise("k0; with stress: zz is nu (xx + yy)"), "Out-of-plane over vertical stress, zz / yy."},
     Key{"surface_y", at<&InitialStress::surface_y>, number(D::length), otherwise("none; k0 requires it, or surface"), "Level of the ground's surface; it may lie above the model."},
     Key{"surface", at<&InitialStress::surface>, choice, initial, "Where the ground ends: at a level (surface_y), or at the upper side of the domain's outline."},

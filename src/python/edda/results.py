@@ -179,7 +179,7 @@ class Frame:
     Cell fields of blocks: id, material (row of Model.materials, -1: none), fixed (0 or 1), rotation (rad), omega
     (rad/s), overstress: (rows,); displacement (m), velocity (m/s): (rows, 3), x y z, of the centroid; stress (Pa,
     tension positive): (rows, 6), xx yy zz xy yz xz; principal_stress (Pa): (rows, 3), major (most tensile) and minor
-    (most compressive) in the plane, and out of it; in a run with zones plastic_strain, strength_factor (nan without a
+    (most compressive) in the plane, and out of it; in a run with zones plastic_strain, pore_pressure (Pa), strength_factor (nan without a
     strength) and, of the first zone, yields: (rows,). Point fields: displacement (m), velocity (m/s): (n, 3).
 
     Cell fields of contacts: block_i, block_j, state (0 open, 1 stick, 2 slide, 3 bonded), normal_force,
@@ -207,6 +207,9 @@ class Frame:
                 if np.issubdtype(values.dtype, np.floating):
                     weights = areas.reshape(-1, *[1] * (values.ndim - 1))
                     self.cell_fields[name] = np.add.reduceat(weights * values, first) / np.add.reduceat(weights, first)
+            xx, yy, zz, xy = self.cell_fields["stress"][:, :4].T
+            mean, radius = 0.5 * (xx + yy), np.hypot(0.5 * (xx - yy), xy)
+            self.cell_fields["principal_stress"] = np.stack([mean + radius, mean - radius, zz], axis=1)
 
     def __getitem__(self, name: str) -> NDArray[Any]:
         if name not in self.cell_fields:
