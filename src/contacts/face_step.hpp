@@ -374,21 +374,25 @@ EDDA_INLINE FaceStep step_of_face(const FaceInputs& in, const EdgeGeometry& stan
 
 /// A face that has carried nothing for two steps, at n.
 struct OpenFace {
-  double gate;     ///< as Face::gate, with the same bits
-  bool may_close;  ///< it may be closed, or decide_activity() must be called
+  FaceEnds closure;  ///< in here for g++ 12, which does not vectorise the loop without it
+  double gate;       ///< as Face::gate, with the same bits
+  bool may_close;    ///< it may be closed, or decide_activity() must be called
 };
 EDDA_INLINE OpenFace test_open_face(const FaceInputs& in, const EdgeGeometry& o) {
   const FacePair& pair = in.pair;
-  const FaceEnds drawn{o.closure_at_0 + o.closure_slope * o.ma,
-                       o.closure_at_0 + o.closure_slope * o.mb};
-  const FaceEnds closure = closed_by(drawn, o, pair), gated = gated_closure(drawn.a, drawn.b, pair);
+  OpenFace s;
+  const double drawn_a = o.closure_at_0 + o.closure_slope * o.ma,
+               drawn_b = o.closure_at_0 + o.closure_slope * o.mb;
+  s.closure = closed_by({drawn_a, drawn_b}, o, pair);
   const double gate = smooth_step((o.cosine - pair.gate_from) * pair.gate_scale).value;
+  const FaceEnds gated = gated_closure(drawn_a, drawn_b, pair);
   const double deepest = larger(gated.a, gated.b);
   const bool overlap = overlaps(o.ma, o.mb, pair), faded = is_faded(o, deepest, pair);
   const bool on = overlap & !faded & (o.cosine > pair.gate_from) & (o.s2 > 0.0) & (o.r1 > o.r2);
-  const bool open = larger(larger(closure.a, closure.b), deepest) <= 0.0;
-  const bool may_close = (on & !open) | needs_decision(in, on, drawn, false);
-  return {on ? gate : 0.0, may_close};
+  s.gate = on ? gate : 0.0;
+  const bool open = larger(larger(s.closure.a, s.closure.b), deepest) <= 0.0;
+  s.may_close = (on & !open) | needs_decision(in, on, {drawn_a, drawn_b}, false);
+  return s;
 }
 EDDA_INLINE OpenFace test_open_face(const FaceInputs& in) {
   return test_open_face(in, geometry_of_edges(in.at, in.pair));

@@ -19,7 +19,7 @@
 //   where any block is zoned, then of zoned blocks alive
 //     of their vertices: displacement.x .y since the datum | velocity.x .y
 //     of their cells: stress.xx .yy .zz .xy | plastic_strain | strength_factor, -1 where
-//     the rock has none, and u8 yields
+//     the rock has none | pore_pressure, and u8 yields
 //   d and A: of the displacement since the datum; where the block was at the datum says that. With
 //   16 bits A is times the block's reach, m, so that the rotation of small blocks does not cost
 //   large ones precision then the contacts, sorted by the row of block i:
@@ -199,6 +199,7 @@ void add_zones(Bytes& bytes, const ViewMesh& mesh, const ViewBlocks& in, const G
   std::vector<double> factor = column(g, "strength_factor", 0, cells);
   for (double& v : factor) v = std::isnan(v) ? -1.0 : v;
   add_group(bytes, {factor}, precision, value_steps);
+  add_group(bytes, {column(g, "pore_pressure", 0, cells)}, precision, value_steps);
   for (const double yields : column(g, "yields", 0, cells))
     bytes.u8(static_cast<std::uint8_t>(yields));
 }

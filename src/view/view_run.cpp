@@ -123,8 +123,8 @@ Result<ViewRun> ViewRun::open(std::string folder, ViewNames names) {
   if (!first.ok()) return first.faults();
   run.mesh_ = view_mesh(first.value());
   run.stamp_ = run.stamp_of(series.value().front());
-  for (const char* name :
-       {"omega", "rotation", "overstress", "plastic_strain", "yields", "strength_factor"}) {
+  for (const char* name : {"omega", "rotation", "overstress", "plastic_strain", "yields",
+                           "strength_factor", "pore_pressure"}) {
     if (first.value().cell_field(name) == nullptr) run.absent_.emplace_back(name);
   }
   if (!run.names_.judges_rock && !std::count(run.absent_.begin(), run.absent_.end(), "overstress"))

@@ -84,7 +84,7 @@ TEST(MovedSets, APartOfMeshedGroundFlows) {
     ASSERT_TRUE(b.is_meshed(0));
     Zones& zones = sim.motion.zones;
     const double shear = 1e9 / 2.4, strain = 2e-3;
-    zones.stress[0] = {0.0, -2.0 * shear * strain, 0.0, 0.0};
+    zones.state[0].stress = {0.0, -2.0 * shear * strain, 0.0, 0.0};
     zones.yielding[0] = static_cast<std::uint8_t>(Yielding::in_tension);
     move(sim, 0, {0.5, 0.2}, 0.3);
     EXPECT_TRUE(motion.flowing(sim).empty()) << "nothing shears";

@@ -25,7 +25,7 @@ class Unpacked {
       group(columns, count, blocks);
     if (nodes > 0) {
       for (int n = 0; n < 2; ++n) group(2, nodes, of_nodes);
-      for (const std::size_t columns : {4UL, 1UL, 1UL}) group(columns, cells, of_zones);
+      for (const std::size_t columns : {4UL, 1UL, 1UL, 1UL}) group(columns, cells, of_zones);
       for (std::size_t z = 0; z < cells; ++z)
         yields.push_back(static_cast<unsigned char>(bytes_[at_++]));
     }
@@ -365,6 +365,7 @@ Grid with_zones(const Moved& place, const Moved& displacement) {
   g.cell_fields.push_back({"plastic_strain", 1, {0.0, 0.01, 0.03, 0.0}, {}, false});
   g.cell_fields.push_back({"yields", 1, {0.0, 2.0, 1.0, 0.0}, {}, true});
   g.cell_fields.push_back({"strength_factor", 1, {nan, 1.5, nan, nan}, {}, false});
+  g.cell_fields.push_back({"pore_pressure", 1, {0.0, 2e5, 1e5, 0.0}, {}, false});
   Field velocity = *g.point_field("displacement");
   velocity.name = "velocity";
   for (double& v : velocity.values) v *= 2.0;
@@ -400,6 +401,7 @@ TEST(ViewFrame, ZonesHaveTheirNodesAndValues) {
     EXPECT_NEAR(u.of_zones[4][0], 0.01, 1e-5);
     EXPECT_NEAR(u.of_zones[5][0], 1.5, 1e-3);
     EXPECT_NEAR(u.of_zones[5][1], -1.0, 1e-3);
+    EXPECT_NEAR(u.of_zones[6][1], 1e5, 20.0);
     EXPECT_EQ(u.yields, (std::vector<int>{2, 1}));
     // The block has their mean by area.
     const std::vector<double> areas = cell_areas(g);

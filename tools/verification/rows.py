@@ -363,7 +363,7 @@ ROWS = (
         "Half of a rough rigid strip of 2 m on rock without friction, c 100 kPa, pushed in by 20 mm; zones of 0.2 m.",
         "(2 + pi) c (Prandtl 1920), on the width and half a zone beside it."),
     Row(76, "A slope under a lake that goes down",
-        "A slope of 2:1, 10 m high, phi 20 deg, c 10 kPa, 20 kN/m3, in zones of 1 m, with water in its pores and on its face: a level"
+        "A slope of 2:1, 10 m high, phi 20 deg, c 10 kPa, 20 kN/m3, in zones of 0.8 m, with water in its pores and on its face: a level"
         " lake and table up to the crest, 7 m lower, and none.",
         "Griffiths and Lane (1999), by finite elements: 1.85, 1.30 and 1.40."),
     Row(77, "A slope of clay",

@@ -45,6 +45,7 @@ const ofBlocks: Record<string, OfBlock> = {
   plastic_strain: (f, b) => f.plastic[b],
   yields: (f, b) => f.yields[b],
   strength_factor: (f, b) => f.strength[b],
+  pore_pressure: (f, b) => f.pore[b],
 };
 
 const ofContacts: Record<string, (c: Contacts) => ArrayLike<number>> = {

@@ -59,6 +59,7 @@ export interface Frame {
   /** Empty without zones. */
   plastic: Float32Array;
   strength: Float32Array;
+  pore: Float32Array;
   yields: Float32Array;
   contacts: Contacts;
 }
@@ -131,13 +132,13 @@ export function readFrame(bytes: Uint8Array, mesh: Beginnings): Frame {
   const [sxx, syy, szz, sxy] = group(4);
   const [overstress] = group(1);
   const none = new Float32Array(0);
-  const frame = { bits, alive, datum, motion, vx, vy, omega, rotation, sxx, syy, szz, sxy, overstress, plastic: none, strength: none, yields: none };
+  const frame = { bits, alive, datum, motion, vx, vy, omega, rotation, sxx, syy, szz, sxy, overstress, plastic: none, strength: none, pore: none, yields: none };
   if (mesh.zones.count > 0) readZones(r, columns, frame, mesh);
   return { ...frame, contacts: readContacts(r, columns, touching, mesh) };
 }
 
 /** Values of rock that has no zones. */
-const NO_ZONE = { plastic: 0, strength: NaN, yields: 0 };
+const NO_ZONE = { plastic: 0, strength: NaN, pore: 0, yields: 0 };
 
 /** Makes columns of blocks those of all parts. */
 function readZones(r: Reader, columns: Columns, f: Omit<Frame, 'contacts'>, mesh: Beginnings): void {
@@ -152,13 +153,14 @@ function readZones(r: Reader, columns: Columns, f: Omit<Frame, 'contacts'>, mesh
     const [corners] = [zones.corners];
     f[name] = grown(f[name], zones, (z) => (of[corners[3 * z]] + of[corners[3 * z + 1]] + of[corners[3 * z + 2]]) / 3);
   }
-  const put = (name: 'sxx' | 'syy' | 'szz' | 'sxy' | 'plastic' | 'strength' | 'yields', of: ArrayLike<number>) => {
+  const put = (name: 'sxx' | 'syy' | 'szz' | 'sxy' | 'plastic' | 'strength' | 'pore' | 'yields', of: ArrayLike<number>) => {
     const ofBlocks = name in NO_ZONE ? new Float32Array(blocks).fill(NO_ZONE[name as keyof typeof NO_ZONE]) : f[name];
     f[name] = grown(ofBlocks, zones, (z) => of[z]);
   };
   ofZones(4).forEach((c, k) => put((['sxx', 'syy', 'szz', 'sxy'] as const)[k], c));
   put('plastic', ofZones(1)[0]);
   put('strength', ofZones(1)[0].map((v) => (v < 0 ? NaN : v)));
+  put('pore', ofZones(1)[0]);
   put('yields', spread(Float32Array.from(r.take(count(zoneAlive))), zoneAlive));
   for (const name of ['omega', 'rotation', 'overstress'] as const) {
     const ofBlocks = f[name];

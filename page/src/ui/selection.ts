@@ -41,7 +41,7 @@ export function valuesOf(run: Run, mesh: Mesh, frame: Frame, datum: Motion, b: n
     ['overstress', frame.overstress[b], ''],
   ];
   if (b >= mesh.blocks) {
-    rows.push(['plastic_strain', frame.plastic[b], ''], ['strength_factor', frame.strength[b], ''], ['yields', yieldsIn[frame.yields[b]] ?? '', '']);
+    rows.push(['plastic_strain', frame.plastic[b], ''], ['strength_factor', frame.strength[b], ''], ['pore_pressure', frame.pore[b], 'Pa'], ['yields', yieldsIn[frame.yields[b]] ?? '', '']);
   }
   return rows.map(([name, value, unit]) => ({ name, value, unit }));
 }
