@@ -193,7 +193,7 @@ void add_zones(Bytes& bytes, const ViewMesh& mesh, const ViewBlocks& in, const G
       cells.push_back(c);
   }
   Columns stress;
-  for (const std::size_t k : {0, 1, 2, 3}) stress.push_back(column(g, "stress", k, cells));
+  for (std::size_t k = 0; k < 4; ++k) stress.push_back(column(g, "stress", k, cells));
   add_group(bytes, stress, precision, value_steps);
   add_group(bytes, {column(g, "plastic_strain", 0, cells)}, precision, value_steps);
   std::vector<double> factor = column(g, "strength_factor", 0, cells);
