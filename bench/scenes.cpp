@@ -136,6 +136,14 @@ Simulation flowing_heap(int count) {
   return sim;
 }
 
+/// After so many steps.
+Simulation begun(Result<Model> model, long steps) {
+  Simulation sim = built(std::move(model));
+  start(sim, 1000.0);
+  take_steps(sim, steps);
+  return sim;
+}
+
 Simulation free_blocks(int count) {
   const int columns = std::max(1, static_cast<int>(std::sqrt(count)));
   std::mt19937 rng(1);
@@ -147,17 +155,11 @@ Simulation free_blocks(int count) {
     toml += "[[block]]\n" + polygon_text(rng, {1.25 * column, 1.25 * row}, 0.5);
     toml += fmt::format("angular_velocity = {}\n", u(rng));
   }
-  Simulation sim = built(read_model_text(toml, "free.toml"));
-  start(sim, 1000.0);
-  take_steps(sim, 100);
-  return sim;
+  return begun(read_model_text(toml, "free.toml"), 100);
 }
 
 Simulation example(const std::string& name) {
-  Simulation sim = built(read_model(std::string(EDDA_SOURCE_DIR) + "/examples/" + name + ".toml"));
-  start(sim, 1000.0);
-  take_steps(sim, 2000);
-  return sim;
+  return begun(read_model(std::string(EDDA_SOURCE_DIR) + "/examples/" + name + ".toml"), 2000);
 }
 
 /// A square of ground in zones, of the stress that its weight gives it; all of it may yield.
@@ -187,10 +189,7 @@ size = 0.5
 duration = 1000.0
 )",
                                        side);
-  Simulation sim = built(read_model_text(toml, "ground.toml"));
-  start(sim, 1000.0);
-  take_steps(sim, 200);
-  return sim;
+  return begun(read_model_text(toml, "ground.toml"), 200);
 }
 
 /// A square of rock cut by two joint sets that cross, of the stress that its weight gives it.
@@ -224,10 +223,7 @@ surface = "outline"
 duration = 1000.0
 )",
                                        side);
-  Simulation sim = built(read_model_text(toml, "rock.toml"));
-  start(sim, 1000.0);
-  take_steps(sim, 200);
-  return sim;
+  return begun(read_model_text(toml, "rock.toml"), 200);
 }
 
 }  // namespace

@@ -17,7 +17,7 @@ struct BenchScene {
 ///   collapse:67x30   a wall that has fallen onto sharp ridges
 ///   heap:2000        so many random polygons that flow down a slope
 ///   cavern           examples/cavern.toml, let go
-///   squeezing        examples/squeezing.toml, its opening half let go
+///   squeezing        examples/squeezing.toml, its opening let go at once
 ///   ground:50        so many metres of ground by as many in zones of half a metre, at rest in its
 ///                    stress
 ///   rock:50          so many metres of rock by as many, two joint sets, at rest in its stress

@@ -155,9 +155,7 @@ void wet_pores(const Model& model, const BlockSet& b, const Table& table, double
     if (b.fixed[i] || !model.materials[static_cast<std::size_t>(b.material[i])].pore_pressure)
       continue;
     for (std::uint32_t z = m.zone_begin[i]; z < m.zone_begin[i + 1]; ++z) {
-      double arm = 0.0;
-      for (const std::uint32_t j : m.zone[z]) arm += m.arm_x[j] / corners_of_zone;
-      const double x = b.centroid_x[i] + arm;
+      const double x = b.centroid_x[i] + centre_of_zone(m, z).x;
       if (x < table.low() - snap || x > table.high() + snap) continue;
       wet.push_back(
           {z, static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(row), table.at(x)});

@@ -92,6 +92,13 @@ struct BlockMesh {
 /// Where the nodes of the mesh of block i were at the start, from its centroid, m.
 std::vector<Vec2> arms_of(const Meshes& meshes, std::size_t i);
 
+/// Where the centre of a zone was at the start, from the centroid of its block, m.
+inline Vec2 centre_of_zone(const Meshes& meshes, std::size_t zone) {
+  Vec2 sum;
+  for (const std::uint32_t j : meshes.zone[zone]) sum += Vec2{meshes.arm_x[j], meshes.arm_y[j]};
+  return sum / corners_of_zone;
+}
+
 /// Appends the mesh of the next block, in the order of the blocks.
 void add_mesh(Meshes& meshes, const BlockMesh& mesh);
 /// Appends a block that is not meshed.

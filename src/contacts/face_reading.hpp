@@ -97,21 +97,19 @@ inline Vec2 force_on_facing(const FaceRow& r) {
 struct FaceSpan {
   Vec2 a, b;
 };
-inline FaceSpan span_of(const FaceRow& r, const Pose& pose) {
-  const FaceSet& f = r.of;
-  const Vec2 p1{pose.x[f.edge[r.k]], pose.y[f.edge[r.k]]},
-      p2{pose.x[f.edge_end[r.k]], pose.y[f.edge_end[r.k]]};
-  const auto at = [&](double xi) { return (1.0 - xi) * p1 + xi * p2; };
-  const double xi_a = r.state.xi_a, xi_b = r.state.xi_b;
-  if (r.state.length > 0.0) return {at(xi_a), at(xi_b)};
-  const Vec2 middle = at(0.5 * (xi_a + xi_b));
-  return {middle, middle};
-}
 /// The whole `edge` of a face.
 inline FaceSpan edge_of(const FaceRow& r, const Pose& pose) {
   const FaceSet& f = r.of;
   return {{pose.x[f.edge[r.k]], pose.y[f.edge[r.k]]},
           {pose.x[f.edge_end[r.k]], pose.y[f.edge_end[r.k]]}};
+}
+inline FaceSpan span_of(const FaceRow& r, const Pose& pose) {
+  const FaceSpan edge = edge_of(r, pose);
+  const auto at = [&](double xi) { return (1.0 - xi) * edge.a + xi * edge.b; };
+  const double xi_a = r.state.xi_a, xi_b = r.state.xi_b;
+  if (r.state.length > 0.0) return {at(xi_a), at(xi_b)};
+  const Vec2 middle = at(0.5 * (xi_a + xi_b));
+  return {middle, middle};
 }
 /// Between the middles of both edges of a face that have come apart, m.
 inline double distance_apart(const FaceRow& r, const Pose& pose) {

@@ -85,9 +85,8 @@ void warn_of_dry_waters(const Simulation& sim, std::vector<std::string>& warning
     if (under) wets[static_cast<std::size_t>(e.water)] = true;
   }
   for (const WetZone& z : sim.attached.loads.wet_zones) {
-    double y = 0.0;
-    for (const std::uint32_t j : b.meshes.zone[z.zone]) y += b.meshes.arm_y[j] / corners_of_zone;
-    if (b.centroid_y[z.block] + y < z.level) wets[z.water] = true;
+    const double y = b.centroid_y[z.block] + centre_of_zone(b.meshes, z.zone).y;
+    if (y < z.level) wets[z.water] = true;
   }
   for (std::size_t q = 0; q < wets.size(); ++q) {
     const Water& water = model.waters[q];

@@ -13,8 +13,8 @@ namespace {
 double largest_pressure(const Simulation& sim, const WetZone& wet) {
   const BlockSet& b = sim.scene->blocks;
   const Water& water = sim.scene->model.waters[wet.water];
-  double y = b.centroid_y[wet.block], rise = 0.0;
-  for (const std::uint32_t j : b.meshes.zone[wet.zone]) y += b.meshes.arm_y[j] / corners_of_zone;
+  const double y = b.centroid_y[wet.block] + centre_of_zone(b.meshes, wet.zone).y;
+  double rise = 0.0;
   for (const double value : water.rise.value) rise = std::max(rise, value);
   return water.unit_weight * std::max(0.0, wet.level + rise - y);
 }

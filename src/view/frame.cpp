@@ -109,6 +109,10 @@ std::vector<double> column(const Grid& g, const char* name, std::size_t k,
   return values;
 }
 
+bool any_zoned(const ViewMesh& mesh) {
+  return std::any_of(mesh.zoned.begin(), mesh.zoned.end(), [](auto zoned) { return zoned != 0; });
+}
+
 /// The same of blocks: the mean over the area of zoned ones.
 std::vector<double> block_column(const ViewMesh& mesh, const ViewBlocks& in, const Grid& g,
                                  const char* name, std::size_t k,
@@ -148,7 +152,7 @@ void add_motions(Bytes& bytes, const std::vector<BlockMotion>& motions, ViewPrec
 
 void add_fields(Bytes& bytes, const ViewMesh& mesh, const ViewBlocks& in, const Grid& g,
                 ViewPrecision precision) {
-  const std::vector<double> areas = cell_areas(g);
+  const std::vector<double> areas = any_zoned(mesh) ? cell_areas(g) : std::vector<double>();
   const auto group = [&](const char* name, std::initializer_list<std::size_t> components) {
     Columns columns;
     for (const std::size_t k : components)
@@ -330,10 +334,6 @@ Vec2 moved_to_datum(const ViewMesh& mesh, std::size_t row, const Grid& g, std::s
 }
 BlockMotion datum_of(const ViewMesh& mesh, std::size_t row, const Grid& g) {
   return block_motion(mesh, row, [&](std::size_t v) { return moved_to_datum(mesh, row, g, v); });
-}
-
-bool any_zoned(const ViewMesh& mesh) {
-  return std::any_of(mesh.zoned.begin(), mesh.zoned.end(), [](auto zoned) { return zoned != 0; });
 }
 
 /// Takes over the vertices of a zoned block; whether any has another datum than before.

@@ -316,12 +316,9 @@ void begin_under_stress(const ZoneModel& zones, const Model& model, const BlockS
   for (std::size_t i = 0; i < b.size(); ++i) {
     const Vec2 centre{b.centroid_x[i], b.centroid_y[i]};
     for (std::uint32_t z = b.meshes.zone_begin[i]; z < b.meshes.zone_begin[i + 1]; ++z) {
-      Vec2 sum;
-      for (const std::uint32_t j : b.meshes.zone[z])
-        sum += Vec2{b.meshes.arm_x[j], b.meshes.arm_y[j]};
       const auto material = static_cast<std::size_t>(b.material[i]);
       std::array<double, 4> stress =
-          stress_at(model, model.materials[material], field, centre + sum / 3.0);
+          stress_at(model, model.materials[material], field, centre + centre_of_zone(b.meshes, z));
       for (std::size_t c = 0; c < 3 && !all.pore.empty(); ++c) stress[c] += all.pore[z];
       all.state[z] = zone_at_start(zones.material[material], stress);
     }
@@ -393,8 +390,8 @@ Zones zones_at_start(const ZoneModel& zones, const Model& model, const BlockSet&
     for (auto* of : {&all.pore, &all.swelling, &all.pore_work, &all.pore_work_due})
       of->assign(many, 0.0);
   }
-  place_all_nodes(b, state, all);
   if (model.initial_stress) {
+    place_all_nodes(b, state, all);
     for_wet_zones(water, b, state, all, [&](std::uint32_t z, double u) { all.pore[z] = u; });
     begin_under_stress(zones, model, b, all);
     for (std::size_t z = 0; z < all.pore.size(); ++z) all.state[z].locked -= all.pore[z];

@@ -1,10 +1,9 @@
 // Factors of safety that have a formula: validation.md rows 40 to 46.
-#include "study/fos.hpp"
-
 #include <array>
 #include <limits>
 
 #include "verification/exact_slopes.hpp"
+#include "verification/factor_of.hpp"
 #include "verification/models.hpp"
 #include "verification/record.hpp"
 
@@ -12,19 +11,9 @@ namespace edda::fos_test {
 namespace {
 
 FosResult factor_of(const std::string& toml, const std::string& fos = {}) {
-  const Result<Model> model =
-      read_model_text(toml + "[fos]\n" + fos, EDDA_SOURCE_DIR "/scene.toml", {});
-  if (!model.ok()) {
-    ADD_FAILURE() << to_string(model.faults().front());
-    return {};
-  }
-  Result<FosResult> found = find_factor(model.value(), {});
-  if (!found.ok()) {
-    ADD_FAILURE() << to_string(found.faults().front());
-    return {};
-  }
-  EXPECT_EQ(found.value().status, FosStatus::found) << found.value().message;
-  return std::move(found.value());
+  FosResult found = find_factor_of(toml, fos);
+  EXPECT_EQ(found.status, FosStatus::found) << found.message;
+  return found;
 }
 
 /// Compares the factor and its bracket by rigid limit analysis with its formula, and records the

@@ -1,7 +1,7 @@
 // Cohesion of joints under water, and where they crack: validation.md row 69.
 #include <cmath>
 
-#include "study/fos.hpp"
+#include "verification/factor_of.hpp"
 #include "verification/models.hpp"
 #include "verification/record.hpp"
 
@@ -11,18 +11,7 @@ namespace {
 constexpr double g = 9.81, density = 2500.0, of_water = 9810.0;
 
 double factor_of(const std::string& toml) {
-  const Result<Model> model =
-      read_model_text(toml + "[fos]\ntolerance = 0.004\n", EDDA_SOURCE_DIR "/scene.toml", {});
-  if (!model.ok()) {
-    ADD_FAILURE() << to_string(model.faults().front());
-    return 0.0;
-  }
-  const Result<FosResult> found = find_factor(model.value(), {});
-  if (!found.ok()) {
-    ADD_FAILURE() << to_string(found.faults().front());
-    return 0.0;
-  }
-  return found.value().factor.value_or(0.0);
+  return find_factor_of(toml, "tolerance = 0.004\n").factor.value_or(0.0);
 }
 
 std::string rock_and_joint(double phi, double cohesion, double tension) {

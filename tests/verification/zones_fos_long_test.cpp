@@ -1,7 +1,5 @@
 // Factors of safety of slopes in zones: validation.md rows 76 and 77.
-#include <optional>
-
-#include "study/fos.hpp"
+#include "verification/factor_of.hpp"
 #include "verification/models.hpp"
 #include "verification/record.hpp"
 
@@ -9,20 +7,10 @@ namespace edda::zones_fos_long_test {
 namespace {
 
 double factor_of(const std::string& toml) {
-  const Result<Model> model =
-      read_model_text(toml + "[[stage]]\nuntil = 'equilibrium'\n[fos]\ntolerance = 0.01\n",
-                      EDDA_SOURCE_DIR "/scene.toml", {});
-  if (!model.ok()) {
-    ADD_FAILURE() << to_string(model.faults().front());
-    return 0.0;
-  }
-  const Result<FosResult> found = find_factor(model.value(), {});
-  if (!found.ok()) {
-    ADD_FAILURE() << to_string(found.faults().front());
-    return 0.0;
-  }
-  EXPECT_EQ(found.value().status, FosStatus::found) << found.value().message;
-  return found.value().factor.value_or(0.0);
+  const FosResult found =
+      find_factor_of(toml + "[[stage]]\nuntil = 'equilibrium'\n", "tolerance = 0.01\n");
+  EXPECT_EQ(found.status, FosStatus::found) << found.message;
+  return found.factor.value_or(0.0);
 }
 
 std::string ground(const std::string& material, const std::string& outline, double zones) {

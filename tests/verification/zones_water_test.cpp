@@ -40,8 +40,7 @@ void each_zone(const Simulation& sim, Body body) {
   const BlockSet& b = sim.scene->blocks;
   const Zones& zones = sim.motion.zones;
   for (std::size_t z = 0; z < b.meshes.zone.size(); ++z) {
-    double y = b.centroid_y[0] + b.origin.y;
-    for (const std::uint32_t j : b.meshes.zone[z]) y += b.meshes.arm_y[j] / 3.0;
+    const double y = b.centroid_y[0] + b.origin.y + centre_of_zone(b.meshes, z).y;
     body(10.0 - y, zones.stress[z], zones.pore.empty() ? 0.0 : zones.pore[z]);
   }
 }
