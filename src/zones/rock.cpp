@@ -139,10 +139,11 @@ ZoneMaterial divided(const ZoneMaterial& rock, double factor) {
 }
 
 bool stays_elastic(const ZoneMaterial& rock, double slip, const Principal& stress) {
-  if (yields(rock.residual) && slip > 0.0) return false;
-  if (const auto* s = std::get_if<MohrCoulombSurface>(&rock.peak))
-    return within(s->planes, stress, 0.0);
-  return within(std::get<HoekBrown>(rock.peak), stress);
+  return on_surface(rock, slip, [&](const YieldSurface& surface) {
+    if (const auto* s = std::get_if<MohrCoulombSurface>(&surface))
+      return within(s->planes, stress, 0.0);
+    return within(std::get<HoekBrown>(surface), stress);
+  });
 }
 
 ReturnedStress return_to(const ZoneMaterial& rock, double slip, const Principal& trial) {

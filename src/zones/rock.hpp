@@ -1,9 +1,9 @@
 // Rock of zones: its elasticity, where it yields, how its strength falls, and its foliation.
 //
 // Strength falls from the peak to the residual one as a band of rock shears. What a zone remembers
-// is its plastic shear strain g, the accumulated difference e1 - e3; a band in it is as wide as the
-// zone (w), so that it has slipped by w g: the strength falls linearly with w g over a given slip,
-// and what a band dissipates does not hang on the size of the zones.
+// is its plastic shear strain g, the accumulated difference e1 - e3; a band through it is as wide
+// as two zones (w), so that it has slipped by w g: the strength falls linearly with w g over a
+// given slip, and what a band dissipates hardly hangs on the size of the zones.
 #pragma once
 
 #include <optional>
@@ -41,8 +41,7 @@ inline ZoneMaterial rock_that_yields(const IsotropicElasticity& elastic,
 /// With the shear and tensile strength divided by a factor, dilation with the friction.
 ZoneMaterial divided(const ZoneMaterial& rock, double factor);
 
-/// Whether stresses in any order are within the strength after a slip (m); false where rock that
-/// softens has begun to: return_to() knows.
+/// Whether stresses in any order are within the strength after a slip (m).
 bool stays_elastic(const ZoneMaterial& rock, double slip, const Principal& stress);
 
 /// Return of stresses in any order to the strength of the rock after a slip (m); it yields.

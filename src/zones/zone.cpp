@@ -243,7 +243,7 @@ ZoneState transverse_at_start(const Foliation& foliation, const std::array<doubl
 
 ZoneShape zone_shape(Vec2 a, Vec2 b, Vec2 c, double thickness) {
   const double twice = cross(b - a, c - a);
-  return {area_gradients(a, b, c), 0.5 * twice * thickness, std::sqrt(std::abs(twice))};
+  return {area_gradients(a, b, c), 0.5 * twice * thickness, 2.0 * std::sqrt(std::abs(twice))};
 }
 
 double swelling_of(const ZoneShape& shape, const std::array<Vec2, 3>& x) {

@@ -37,7 +37,8 @@ struct Matrix2 {
 struct ZoneShape {
   std::array<Vec2, 3> gradient;  ///< g_k, 1/m
   double volume = 0.0;           ///< area times thickness, m3
-  double width = 0.0;            ///< w of a band of shear in it, m: of a pair of such triangles
+  double width = 0.0;            ///< w of a band of shear through it, m: that of two pairs of such
+                                 ///< triangles
 };
 ZoneShape zone_shape(Vec2 a, Vec2 b, Vec2 c, double thickness);
 /// theta of a zone, its nodes at x.

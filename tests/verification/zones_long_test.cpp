@@ -143,9 +143,11 @@ double hoop_error(const Simulation& sim, const Ring& ring, double edge) {
   return most;
 }
 
-/// Salencon (1969): phi = 30 degrees, c = 3.45 MPa, under 30 MPa. E and nu of FLAC's example.
+/// Salencon (1969): phi = 30 degrees, c = 3.45 MPa, under 30 MPa. nu of FLAC's example; its E is a
+/// hundredth of this one, and the opening would close by 2.8 % of its radius, where the stresses
+/// around it, and so the closure, are no longer those of small strains.
 TEST(Yielding, AnOpeningAfterMohrAndCoulomb) {
-  const double shear = 2.8e9, bulk = 3.9e9;
+  const double shear = 2.8e11, bulk = 3.9e11;
   Ring ring{9.0 * bulk * shear / (3.0 * bulk + shear),
             (3.0 * bulk - 2.0 * shear) / (2.0 * (3.0 * bulk + shear)), 30e6,
             [](double s) { return 2.0 * s + 2.0 * 3.45e6 * std::sqrt(3.0); }, 1.0};
@@ -153,7 +155,7 @@ TEST(Yielding, AnOpeningAfterMohrAndCoulomb) {
     const double sine = std::sin(psi * degree);
     ring.flow = (1.0 + sine) / (1.0 - sine);
     const Ring::Solution exact = ring.solve();
-    EXPECT_NEAR(exact.closure / (psi > 0.0 ? 28.10e-3 : 12.165e-3), 1.0, 2e-3);
+    EXPECT_NEAR(exact.closure / (psi > 0.0 ? 28.10e-5 : 12.165e-5), 1.0, 2e-3);
     const Ran r = opened(ring,
                          "friction_angle = 30, cohesion = 3.45e6, tensile_strength = 5e6, "
                          "dilation_angle = " +
@@ -163,9 +165,9 @@ TEST(Yielding, AnOpeningAfterMohrAndCoulomb) {
     EXPECT_LT(r.outcome.largest_energy_error, 2e-5);
     const std::string which = "dilation " + number(psi) + " deg";
     expect_relative({73, which, "closure of the wall", "m"}, closure_of(r.ready.sim), exact.closure,
-                    5e-2);
+                    3e-2);
     expect_at_most({73, which, "error of the hoop stress over the stress of the ground", ""},
-                   hoop_error(r.ready.sim, ring, exact.edge), 5e-2);
+                   hoop_error(r.ready.sim, ring, exact.edge), 2e-2);
   }
 }
 
@@ -187,6 +189,17 @@ TEST(Yielding, AnOpeningAfterHoekAndBrown) {
     expect_at_most({74, which, "error of the hoop stress over the stress of the ground", ""},
                    hoop_error(r.ready.sim, ring, exact.edge), 5e-2);
   }
+}
+
+/// Load per width on the springs of boundary `row`, Pa.
+double pressure_on(const Simulation& sim, int row, double width) {
+  const BoundarySprings& springs = sim.attached.springs;
+  const Pose& pose = sim.motion.pose;
+  double load = 0.0;
+  for (std::size_t q = 0; q < springs.size(); ++q) {
+    if (springs.boundary[q] == row) load += spring_force(springs, q, pose.x, pose.y).y;
+  }
+  return load / width;
 }
 
 /// Prandtl (1920): a strip that is pushed into rock without friction bears (2 + pi) c, and goes on
@@ -232,14 +245,75 @@ until = 'equilibrium'
 size = 0.2
 )");
   EXPECT_EQ(r.outcome.status, Status::equilibrium) << r.outcome.message;
-  const BoundarySprings& springs = r.ready.sim.attached.springs;
-  const Pose& pose = r.ready.sim.motion.pose;
-  double load = 0.0;
-  for (std::size_t q = 0; q < springs.size(); ++q) {
-    if (springs.boundary[q] == 2) load -= spring_force(springs, q, pose.x, pose.y).y;
+  expect_relative({75, "", "pressure of the footing", "Pa"},
+                  -pressure_on(r.ready.sim, 2, 1.0 + 0.5 * size), (2.0 + std::numbers::pi) * c,
+                  3e-2);
+}
+
+/// A sample of 1 by 2 m between smooth platens under 1 MPa from its sides, shortened by 12 mm. Its
+/// cohesion falls from 1 to 0.2 MPa over 5 mm of slip. Before the peak it deforms as a whole; then
+/// bands cross it, and what they have dissipated beyond the residual strength is that of one band
+/// after Tresca, c slip/2 over its length: bands are about two zones wide, no more can be said.
+TEST(Yielding, ASampleThatSoftens) {
+  constexpr double peak = 1e6, residual = 0.2e6, slip = 5e-3, side = 1e6;
+  for (const double phi : {0.0, 30.0}) {
+    for (const double size : {0.16, 0.08}) {
+      const std::string which = "phi " + number(phi) + " deg, zones of " + number(size) + " m";
+      Simulation sim = scene(R"(gravity = [0, 0]
+[materials.rock]
+density = 2500
+young = 5e9
+poisson = 0.3
+yield = { tensile_strength = 1e6, slip_distance = 5e-3, residual = { cohesion = 0.2e6 }, cohesion = 1e6, friction_angle = )" +
+                             number(phi) + R"( }
+[joints.j]
+friction_angle = 60
+[domain]
+outline = [[0, 0], [1, 0], [1, 2], [0, 2]]
+[initial_stress]
+stress = [-1e6, -1e6, 0]
+k0_out = 1
+[[boundary]]
+sides = ['left', 'right']
+type = 'stress'
+[[boundary]]
+sides = ['bottom']
+type = 'roller'
+[[boundary]]
+sides = ['top']
+type = 'velocity'
+velocity = [0, -0.04]
+frictionless = true
+[solver]
+duration = 0.3
+[output]
+history_every = 0.001
+[zones]
+size = )" + number(size) + "\n");
+      Series load(79, which, {"shortening", "stress"});
+      double most = 0.0, last = 0.0, error = 0.0;
+      run(sim, [&](Simulation& s) {
+        last = side + pressure_on(s, 1, 1.0);  // springs begin without force
+        most = std::max(most, last);
+        load.add({0.04 * s.motion.state.time, last});
+        keep_largest(error, account_energy(s).error);
+      });
+      EXPECT_LT(error, 2e-3);
+      const double n = std::pow(std::tan((45.0 + 0.5 * phi) * degree), 2);
+      expect_relative({79, which, "stress at the peak", "Pa"}, most,
+                      n * side + 2.0 * peak * std::sqrt(n), 1e-2);
+      expect_relative({79, which, "residual stress", "Pa"}, last,
+                      n * side + 2.0 * residual * std::sqrt(n), 0.15);
+      if (phi > 0.0) continue;
+      const Zones& zones = sim.motion.zones;
+      double energy = 0.0;
+      for (const double pair : zones.dissipated) energy += pair;
+      for (std::size_t z = 0; z < zones.state.size(); ++z)
+        energy -= residual * zones.state[z].plastic_shear * sim.scene->zones.shape[z].volume;
+      expect_relative({79, which, "energy beyond the residual strength", "J"}, energy,
+                      0.5 * (peak - residual) * slip * std::sqrt(2.0), 0.2);
+    }
   }
-  expect_relative({75, "", "load on the footing", "N/m"}, load / (1.0 + 0.5 * size),
-                  (2.0 + std::numbers::pi) * c, 3e-2);
 }
 
 }  // namespace

@@ -353,7 +353,7 @@ ROWS = (
         "The error of the cantilever is proportional to the square of the zones' size: two zones across it are few."),
     Row(73, "An opening in rock after Mohr and Coulomb",
         "A circular opening of 1 m in one block, rollers at 20 m, zones of 0.06 m at the wall that grow by 0.15 per metre: phi 30 deg,"
-        " c 3.45 MPa under 30 MPa. Hoop stresses as means over eight rings between the wall and twice the plastic zone.",
+        " c 3.45 MPa, E 680 GPa (small strains) under 30 MPa. Hoop stresses as means over eight rings between the wall and twice the plastic zone.",
         "Salencon (1969).",
         "Zones half as large halve the error."),
     Row(74, "An opening in rock after Hoek and Brown",
@@ -372,4 +372,9 @@ ROWS = (
     Row(78, "Joints with fracture energy",
         "A plate of two halves, pulled apart or sheared, as blocks and in zones. Discs of polygons, pressed along their diameter.",
         "G_I and G_II for each area of the joint. The strength of a body does not depend on its grains."),
+    Row(79, "A sample that softens",
+        "A sample of 1 by 2 m in zones between smooth platens, 1 MPa at its sides, shortened by 12 mm; its cohesion falls from 1 to"
+        " 0.2 MPa over 5 mm of slip.",
+        "Coulomb's strength at the peak and after it; one band of Tresca's rock dissipates half of c times the slip beyond the rest.",
+        "Parts of the bands still soften at the end, so the residual stress comes out high."),
 )
