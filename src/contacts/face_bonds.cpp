@@ -62,9 +62,7 @@ void bond_faces(FaceSet& c, FaceStates& states, const BlockSet& b, const Pose& p
         laws.resolve(b.edge_joint[e], b.edge_joint[f], b.material[b.vertex_block[e]],
                      b.material[b.vertex_block[f]]);
     const Law& law = laws.rows[drawn];
-    const bool weakens = law.type == LawType::slip_weakening;
-    const bool has_bond = weakens || law.glued || law.peak_cohesion > 0.0 ||
-                          law.peak_tension > 0.0 || law.peak_friction > law.residual_friction;
+    const bool weakens = law.type == LawType::slip_weakening, has_bond = may_weaken(law);
     const bool other = drawn != c.law[k];
     if (!has_bond && !other) continue;
     Face face = face_at(c, b, pose.x, pose.y, k);

@@ -39,6 +39,13 @@ inline bool dilates(const Law& law) {
   return law.dilation > 0.0 || law.type == LawType::barton_bandis;
 }
 
+/// Whether faces of this law that touch have a strength that they may lose: a bond, or that of slip
+/// weakening.
+inline bool may_weaken(const Law& law) {
+  return law.type == LawType::slip_weakening || law.glued || law.peak_cohesion > 0.0 ||
+         law.peak_tension > 0.0 || law.peak_friction > law.residual_friction;
+}
+
 /// The two edges of a face, as far as its penalty stiffness depends on them.
 struct FaceSides {
   double shorter;     ///< length of the shorter one, m

@@ -74,6 +74,7 @@ struct FoliationInputs {
   std::optional<double> friction_angle, dilation_angle;  ///< degrees; dilation empty: 0
   std::optional<double> cohesion, tensile_strength;      ///< Pa; empty: 0
   bool is_elastic() const { return young || shear_modulus || poisson; }
+  bool operator==(const FoliationInputs&) const = default;
 };
 
 struct Material {

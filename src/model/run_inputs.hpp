@@ -87,6 +87,19 @@ struct Ramp {
 };
 
 /// [[stage]]: a part of the run, until a time, until equilibrium, or until collapse under a ramp.
+/// Joints or rock that have other properties from the start of a stage on, all of them or those in
+/// a part of the model.
+struct PropertyChange {
+  Index joints = none, material = none;  ///< those that change: one of the two
+  std::string to;                        ///< a law of joints, or a material
+  Index row = none;                      ///< its row
+  std::vector<Vec2> region;              ///< only within this polygon, as drawn; empty: everywhere
+  std::string around;                    ///< only so far from this opening, as drawn
+  double distance = 0.0;                 ///< m
+  Index opening = none;                  ///< `around`
+  Where where;
+};
+
 struct Stage {
   std::string name;
   StageEnd until = StageEnd::time;
@@ -98,9 +111,10 @@ struct Stage {
   bool to_equilibrium() const { return until != StageEnd::time; }
   /// s, the longest that the whole stage may take; of a ramp `duration` for each value.
   double longest() const { return ramp ? duration * (ramp->steps + 1) : duration; }
-  std::vector<std::string> excavate;  ///< openings excavated at its start
-  NumberMap relax;                    ///< fraction of the wall forces released, by opening
-  std::vector<std::string> install;   ///< bolts and patterns installed at its start
+  std::vector<std::string> excavate;   ///< openings excavated at its start
+  NumberMap relax;                     ///< fraction of the wall forces released, by opening
+  std::vector<std::string> install;    ///< bolts and patterns installed at its start
+  std::vector<PropertyChange> change;  ///< at its start, one after the other
   std::vector<std::string> activate, deactivate;  ///< loads, waters, boundaries, shakings
   bool reset_displacements = false;               ///< at its start
   double strength_factor = 1.0;  ///< the strength of all joints is divided by this during the stage

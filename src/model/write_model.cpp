@@ -127,10 +127,20 @@ struct Write {
   }
   std::string operator()(const SubTable& table) const {
     if (table.file != nullptr && !table.file->empty()) return written(*table.file);
+    return table.object == nullptr ? std::string{} : inline_table(table.keys, table.object);
+  }
+  std::string operator()(const TableList& tables) const {
     std::string text;
-    for (const Key& inner : table.keys) {
-      if (table.object == nullptr) break;
-      const Slot slot = inner.slot(table.object);
+    for (std::size_t i = 0; i < tables.count(tables.list); ++i)
+      text += (i == 0 ? "[" : ", ") + inline_table(tables.keys, tables.at(tables.list, i));
+    return text.empty() ? text : text + ']';
+  }
+
+ private:
+  std::string inline_table(std::span<const Key> keys, void* object) const {
+    std::string text;
+    for (const Key& inner : keys) {
+      const Slot slot = inner.slot(object);
       const std::string value = std::visit(Write{inner, model}, slot);
       if (value.empty()) continue;
       const auto* varied = std::get_if<VariedRange*>(&slot);

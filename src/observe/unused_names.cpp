@@ -26,6 +26,11 @@ std::vector<bool> used_joints(const Simulation& sim) {
   }
   if (unnamed) use(model.contact.joint);
   for (const ContactPair& pair : model.pairs) use(pair.joint);
+  for (const Stage& stage : model.stages) {
+    for (const PropertyChange& change : stage.change) {
+      if (change.joints != none) use(change.row);
+    }
+  }
   return used;
 }
 
@@ -33,6 +38,11 @@ std::vector<bool> used_materials(const Simulation& sim) {
   std::vector<bool> used(sim.scene->model.materials.size(), false);
   for (const Index m : sim.scene->blocks.material) {
     if (m != none) used[static_cast<std::size_t>(m)] = true;
+  }
+  for (const Stage& stage : sim.scene->model.stages) {
+    for (const PropertyChange& change : stage.change) {
+      if (change.material != none) used[static_cast<std::size_t>(change.row)] = true;
+    }
   }
   return used;
 }

@@ -344,6 +344,7 @@ Trouble Driver::restore(const Record& record) {
   }
   list(loader);
   std::string flaw = loader.flaw();
+  if (flaw.empty()) repeat_changes(sim_, plans_, stage_);
   if (flaw.empty()) flaw = recall(sim_, record);
   if (flaw.empty() && angle_.size() != sim_.scene->blocks.size() && !angle_.empty()) {
     flaw = "driver.angle has another size than the model asks for";

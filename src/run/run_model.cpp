@@ -127,6 +127,7 @@ Result<PreparedRun> prepared(Model model, BlockOrder order, ReadFor what_for) {
   Faults faults;
   Result<Gauges> gauges = place_gauges(run.sim);
   if (!gauges.ok()) faults = gauges.faults();
+  for (const Fault& fault : idle_changes(*run.sim.scene)) faults.push_back(fault);
   if (auto fault = unstable_step(run.sim)) faults.push_back(*fault);
   if (auto fault = heavy_scaling(run.sim)) faults.push_back(*fault);
   if (auto fault = beyond_disks(run.sim)) faults.push_back(*fault);

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 
+#include <fmt/format.h>
+
+#include "blocks/property_change.hpp"
 #include "run/ramp.hpp"
 #include "run/stages.hpp"
 #include "step/changes.hpp"
@@ -65,6 +68,34 @@ void change_strength(Simulation& sim, const Stage& stage, double factor) {
 
 }  // namespace
 
+Faults idle_changes(const Scene& scene) {
+  Faults faults;
+  BlockSet blocks = scene.blocks;
+  const Model& model = scene.model;
+  for (const Stage& stage : model.stages) {
+    for (const PropertyChange& change : stage.change) {
+      if (!change_properties(blocks, model, change).empty()) continue;
+      const bool joints = change.joints != none;
+      const auto row = static_cast<std::size_t>(joints ? change.joints : change.material);
+      faults.push_back({change.where,
+                        fmt::format("changes nothing: there {} \"{}\" by then",
+                                    joints ? "are no joints of law" : "is no rock of material",
+                                    joints ? model.joints[row].name : model.materials[row].name),
+                        "check its name, region and distance, and the changes before it"});
+    }
+  }
+  return faults;
+}
+
+void repeat_changes(Simulation& sim, const std::vector<StagePlan>& plans, std::size_t stage) {
+  for (std::size_t q = 0; q <= stage && q < plans.size(); ++q) {
+    for (const PropertyChange& change : plans[q].stage.change) {
+      Scene& scene = sim.scene.edit();
+      change_properties(scene.blocks, scene.model, change);
+    }
+  }
+}
+
 void set_ramp(Simulation& sim, const Stage& stage, double value) {
   const Ramp& ramp = *stage.ramp;
   const State& state = sim.motion.state;
@@ -95,6 +126,7 @@ std::optional<Fault> enter_stage(Simulation& sim, const StagePlan& given, bool f
   // Excavate before boundaries take over from each other, so that a boundary takes over the forces
   // after excavation.
   excavate_openings(sim, plan);
+  for (const PropertyChange& change : stage.change) change_properties(sim, change);
   switch_over(sim, plan.off, plan.on);
   // Bolts are installed in the rock that remains.
   if (!plan.bolts.empty()) {

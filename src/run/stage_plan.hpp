@@ -10,6 +10,7 @@
 
 namespace edda {
 
+struct Scene;
 struct Simulation;
 
 /// A stage, with the rows of the names in it.
@@ -30,6 +31,12 @@ std::vector<StagePlan> plan_stages(const Model& model);
 /// stage, changes that have been made from outside are skipped. Fault: a bolt without rock at its
 /// place.
 std::optional<Fault> enter_stage(Simulation& sim, const StagePlan& plan, bool first);
+
+/// Changes of properties (stage.change) that would change nothing, in the blocks as drawn.
+Faults idle_changes(const Scene& scene);
+/// Makes those of the stages up to `stage` again, in the scene alone, for a run that goes on: its
+/// faces come from a checkpoint.
+void repeat_changes(Simulation& sim, const std::vector<StagePlan>& plans, std::size_t stage);
 
 /// Brings the ramp of the stage to this value, gradually.
 void set_ramp(Simulation& sim, const Stage& stage, double value);

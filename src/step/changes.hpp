@@ -29,6 +29,10 @@ void set_strength_factor(Simulation& sim, double factor);
 /// (note_jump()).
 void take_strength_factors(Simulation& sim, const std::vector<double>& factors);
 
+/// Gives joints or rock other properties (stage.change): laws of faces, strength of zones. Forces
+/// and stresses go on from what they are.
+void change_properties(Simulation& sim, const PropertyChange& change);
+
 /// Removes the rock of these openings (rows of Model::openings). The forces that it had on the
 /// walls become loads, which keep their full value until relax() reduces them.
 void excavate(Simulation& sim, const std::vector<Index>& openings);

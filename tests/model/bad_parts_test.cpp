@@ -329,6 +329,55 @@ TEST(BadModel, Stages) {
   EXPECT_EQ(missing.faults()[0].where.line, 38);
 }
 
+TEST(BadModel, ChangesOfProperties) {
+  const std::string soft = "[materials.soft]\ndensity = 2700\nyoung = 2e9\npoisson = 0.25\n",
+                    worn = "[materials.worn]\ndensity = 2700\nyoung = 20e9\npoisson = 0.25\n",
+                    tough =
+                        "[joints.tough]\nfriction_angle = 30\ncohesion = 1e6\n"
+                        "tensile_strength = 1e6\nfracture_energy = 40\n"
+                        "shear_fracture_energy = 400\n";
+  const std::string stage = "[[stage]]\nduration = 0.1\n";
+  for (const Bad& bad : {
+           Bad{stage + "change = \"weathered\"\n", 44, "stage.0.change", "a list of tables"},
+           Bad{stage + "change = []\n", 44, "stage.0.change", "a list of tables"},
+           Bad{stage + "change = [3]\n", 44, "stage.0.change[0]", "a list of tables"},
+           Bad{stage + "change = [{ to = \"rough\" }]\n", 44, "stage.0.change[0]",
+               "neither joints nor material"},
+           Bad{stage + "change = [{ joints = \"rough\" }]\n", 44, "stage.0.change[0].to",
+               "is missing"},
+           Bad{stage + "change = [{ joints = \"rouhg\", to = \"rough\" }]\n", 44,
+               "stage.0.change[0].joints", "did you mean \"rough\""},
+           Bad{stage + "change = [{ joints = \"rough\", to = \"rouhg\" }]\n", 44,
+               "stage.0.change[0].to", "did you mean \"rough\""},
+           Bad{stage + "change = [{ material = \"rock\", to = \"rock\" }]\n", 44,
+               "stage.0.change[0].to", "already"},
+           Bad{soft + stage + "change = [{ material = \"rock\", to = \"soft\" }]\n", 48,
+               "stage.0.change[0].to", "another density, young"},
+           Bad{tough + stage + "change = [{ joints = \"rough\", to = \"tough\" }]\n", 50,
+               "stage.0.change[0]", "fracture energy"},
+           Bad{worn + stage + "change = [{ material = \"rock\", to = \"worn\", distance = 2 }]\n",
+               48, "stage.0.change[0]", "distance is given without an opening"},
+           Bad{worn + stage +
+                   "change = [{ material = \"rock\", to = \"worn\", around = \"hole\" }]\n",
+               48, "stage.0.change[0]", "around is given without a distance"},
+           Bad{worn + stage +
+                   "change = [{ material = \"rock\", to = \"worn\", around = \"cave\", distance = "
+                   "2 }]\n",
+               48, "stage.0.change[0].around", "names no opening"},
+       }) {
+    const Result<Model> result =
+        read_model_text(testing::base_with("duration = 0.1\n", "") + bad.text, "m.toml", {});
+    ASSERT_FALSE(result.ok()) << bad.text;
+    // A second law or material has to be named elsewhere, too.
+    const Faults& faults = result.faults();
+    const auto f = std::find_if(faults.begin(), faults.end(),
+                                [&](const Fault& fault) { return fault.where.key == bad.key; });
+    ASSERT_NE(f, faults.end()) << bad.text << testing::as_lines(faults);
+    EXPECT_EQ(f->where.line, bad.line - 1) << to_string(*f);
+    EXPECT_NE(to_string(*f).find(bad.fragment), std::string::npos) << to_string(*f);
+  }
+}
+
 /// Models that are not run need no duration, and are written without one.
 TEST(BadParts, DurationIsMissingInARunAlone) {
   const std::string none = testing::base_with("duration = 0.1\n", "");

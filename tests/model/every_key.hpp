@@ -22,6 +22,10 @@ strength = { ucs = "90 MPa", tension = 6e6 }
 unit_weight = "20 kN/m3"
 young = 5e6
 poisson = "40 %"
+[materials."worn rock"]
+density = 2750
+young = 2e10
+poisson = 0.25
 [joints.glue]
 type = "glued"
 [joints.rough]
@@ -287,6 +291,7 @@ duration = 60.0
 excavate = ["cavern"]
 relax = { cavern = 0.6 }
 install = ["round"]
+change = [{ joints = "rough", to = "weak", region = [[11, 1], [12, 1], [12, 2]], around = "cavern", distance = "2 m" }, { material = "rock", to = "worn rock" }]
 activate = ["axle", "wet"]
 masses = "as given"
 reset_displacements = true

@@ -30,7 +30,7 @@ void expect_every_key(const Model& m) {
   EXPECT_EQ(m.gravity, (Vec2{1, -9.8}));
   EXPECT_EQ(m.plane, Plane::stress);
   EXPECT_EQ(m.thickness, 0.5);
-  ASSERT_EQ(m.materials.size(), 2U);
+  ASSERT_EQ(m.materials.size(), 3U);
   EXPECT_EQ(m.materials[0].name, "rock");
   EXPECT_EQ(m.materials[0].density, 2750.0);
   EXPECT_EQ(m.materials[0].young, 20e9);
@@ -332,6 +332,18 @@ void expect_every_stage_key(const Model& m) {
   EXPECT_EQ(m.stages[0].strength_factor, 1.0);
   EXPECT_EQ(m.stages[1].strength_factor, 1.25);
   EXPECT_EQ(m.stages[1].excavate, std::vector<std::string>{"cavern"});
+  ASSERT_EQ(m.stages[1].change.size(), 2U);
+  const PropertyChange &joints = m.stages[1].change[0], &rock = m.stages[1].change[1];
+  EXPECT_EQ(m.joints[static_cast<std::size_t>(joints.joints)].name, "rough");
+  EXPECT_EQ(m.joints[static_cast<std::size_t>(joints.row)].name, "weak");
+  EXPECT_EQ(joints.material, none);
+  EXPECT_EQ(joints.region.size(), 3U);
+  EXPECT_EQ(joints.opening, 0);
+  EXPECT_EQ(joints.distance, 2.0);
+  EXPECT_EQ(m.materials[static_cast<std::size_t>(rock.material)].name, "rock");
+  EXPECT_EQ(m.materials[static_cast<std::size_t>(rock.row)].name, "worn rock");
+  EXPECT_EQ(rock.joints, none);
+  EXPECT_EQ(rock.opening, none);
   EXPECT_EQ(m.stages[1].relax, (NumberMap{{"cavern", 0.6}}));
   EXPECT_EQ(m.stages[0].joints, StageJoints::glued);
   EXPECT_EQ(m.stages[0].falling, FallingBlocks::wait);

@@ -31,6 +31,9 @@ poisson = 0.2
 [joints.j]
 friction_angle = 25
 cohesion = 1e3
+[joints.weathered]
+friction_angle = 22
+kn = 2e8
 [contact]
 joint = "j"
 [domain]
@@ -86,6 +89,7 @@ name = "dig"
 excavate = ["hole"]
 relax = { hole = 0.5 }
 install = ["crown"]
+change = [{ joints = "j", to = "weathered", around = "hole", distance = 1 }]
 until = "equilibrium"
 ratio = 1e-3
 duration = 2.0

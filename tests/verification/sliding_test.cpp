@@ -4,7 +4,7 @@
 namespace edda::sliding_test {
 namespace {
 
-class Ramp : public testing::TestWithParam<std::pair<double, double>> {};
+class Ramp : public ::testing::TestWithParam<std::pair<double, double>> {};
 
 /// Where friction balances nearly all of the driving force, the error of the sudden start is a
 /// larger fraction of the slide.
@@ -24,12 +24,12 @@ TEST_P(Ramp, SlidesAsAnalytic) {
 }
 
 INSTANTIATE_TEST_SUITE_P(PaperPairs, Ramp,
-                         testing::Values(std::pair{30.0, 10.0}, std::pair{30.0, 15.0},
-                                         std::pair{45.0, 10.0}, std::pair{45.0, 15.0}));
+                         ::testing::Values(std::pair{30.0, 10.0}, std::pair{30.0, 15.0},
+                                           std::pair{45.0, 10.0}, std::pair{45.0, 15.0}));
 INSTANTIATE_TEST_SUITE_P(RoughRock, Ramp,
-                         testing::Values(std::pair{30.0, 20.0}, std::pair{30.0, 25.0},
-                                         std::pair{45.0, 30.0}, std::pair{45.0, 35.0},
-                                         std::pair{45.0, 40.0}, std::pair{55.0, 45.0}));
+                         ::testing::Values(std::pair{30.0, 20.0}, std::pair{30.0, 25.0},
+                                           std::pair{45.0, 30.0}, std::pair{45.0, 35.0},
+                                           std::pair{45.0, 40.0}, std::pair{55.0, 45.0}));
 
 /// Slides on ten pieces. Returns the largest sum of normal forces over its static value.
 double press_in_ten_pieces(double alpha, double phi, const std::string& label,

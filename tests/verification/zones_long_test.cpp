@@ -6,6 +6,7 @@
 #include <cmath>
 #include <functional>
 #include <numbers>
+#include <numeric>
 #include <string>
 
 #include "run/prepared.hpp"
@@ -306,8 +307,7 @@ size = )" + number(size) + "\n");
                       n * side + 2.0 * residual * std::sqrt(n), 0.15);
       if (phi > 0.0) continue;
       const Zones& zones = sim.motion.zones;
-      double energy = 0.0;
-      for (const double pair : zones.dissipated) energy += pair;
+      double energy = std::accumulate(zones.dissipated.begin(), zones.dissipated.end(), 0.0);
       for (std::size_t z = 0; z < zones.state.size(); ++z)
         energy -= residual * zones.state[z].plastic_shear * sim.scene->zones.shape[z].volume;
       expect_relative({79, which, "energy beyond the residual strength", "J"}, energy,

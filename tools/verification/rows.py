@@ -377,4 +377,8 @@ ROWS = (
         " 0.2 MPa over 5 mm of slip.",
         "Coulomb's strength at the peak and after it; one band of Tresca's rock dissipates half of c times the slip beyond the rest.",
         "Parts of the bands still soften at the end, so the residual stress comes out high."),
+    Row(80, "Joints that change",
+        "A block rests on a ramp of 30 deg by friction of 45 deg and cohesion until the joint weathers to 15 deg. A column of two blocks"
+        " stands until one or both of its joints become ten times softer, and is loaded then.",
+        "It slides from rest as with 15 deg from the beginning. Nothing moves by the change, and the load meets the new stiffness."),
 )

@@ -120,6 +120,88 @@ void complete_excavation(const Value* own, Stage& stage, std::map<std::string, d
   }
 }
 
+/// What a change asks for that the rest of the run cannot give: material that deforms otherwise,
+/// laws that remember more than slip.
+void check_materials(const Material& from, const Material& to, const Value* own, const Where& where,
+                     Reading& reading) {
+  const bool alike = from.density == to.density && from.young == to.young &&
+                     from.poisson == to.poisson && from.foliation == to.foliation;
+  if (alike) return;
+  add_fault(reading, place_of(own, "to"), where.key + ".to",
+            fmt::format("\"{}\" has another density, young, poisson or foliation than \"{}\"",
+                        to.name, from.name),
+            "a change is one of strength: give both the same of these");
+}
+
+void check_laws(const JointLaw& from, const JointLaw& to, const Value* own, const Where& where,
+                Reading& reading) {
+  const JointLaw& one = from.fracture_energy ? from : to;
+  if (!one.fracture_energy) return;
+  add_fault(reading, place_of(own, &one == &from ? "joints" : "to"), where.key,
+            fmt::format("\"{}\" has fracture energy, whose cracks belong to it", one.name),
+            "change from and to joints without fracture_energy");
+}
+
+void complete_change(const Value* own, PropertyChange& change, Reading& reading) {
+  const Model& model = reading.model;
+  if (!one_of(own, change.where.key, "joints", "material", "joints = \"bedding\"", reading)) return;
+  const bool joints = given(own, "joints");
+  const auto row_of = [&](const auto& list, const char* what) {
+    const auto found = std::find_if(list.begin(), list.end(),
+                                    [&](const auto& item) { return item.name == change.to; });
+    if (found != list.end()) return static_cast<Index>(found - list.begin());
+    names_nothing(reading, *find(own, "to"), change.where.key + ".to", change.to, what,
+                  names_in(list));
+    return none;
+  };
+  if (!change.to.empty())
+    change.row = joints ? row_of(model.joints, "joint") : row_of(model.materials, "material");
+  const Index from = joints ? change.joints : change.material;
+  if (change.row != none && change.row == from) {
+    add_fault(reading, find(own, "to")->place, change.where.key + ".to",
+              '"' + change.to + "\" is what they are already", "name another");
+  } else if (change.row != none && from != none) {
+    const auto a = static_cast<std::size_t>(from), b = static_cast<std::size_t>(change.row);
+    if (joints) {
+      check_laws(model.joints[a], model.joints[b], own, change.where, reading);
+    } else {
+      check_materials(model.materials[a], model.materials[b], own, change.where, reading);
+    }
+  }
+  if (given(own, "around") != given(own, "distance")) {
+    const bool distance = given(own, "distance");
+    add_fault(
+        reading, own->place, change.where.key,
+        distance ? "distance is given without an opening" : "around is given without a distance",
+        distance ? "give around = \"NAME\", an opening" : "give distance = \"2 m\"");
+  } else if (given(own, "around")) {
+    const std::vector<Opening>& all = model.openings;
+    const auto found = std::find_if(all.begin(), all.end(),
+                                    [&](const Opening& o) { return o.name == change.around; });
+    if (found == all.end()) {
+      names_nothing(reading, *find(own, "around"), change.where.key + ".around", change.around,
+                    "opening", names_in(all));
+    } else {
+      change.opening = static_cast<Index>(found - all.begin());
+    }
+  }
+}
+
+/// The changes of properties at the start of a stage.
+void complete_changes(const Value* own, Stage& stage, Reading& reading) {
+  const Model& model = reading.model;
+  if (stage.change.empty()) return;
+  if (model.solver.method == Method::dda || model.contact.model == ContactModel::points) {
+    add_fault(reading, find(own, "change")->place, stage.where.key + ".change",
+              "is not available with method = \"dda\" nor with contact.model = \"points\"",
+              "use method = \"edda\" and contact.model = \"faces\"");
+  }
+  for (std::size_t i = 0; i < stage.change.size(); ++i) {
+    const Value* table = child(find(own, "change"), i);
+    if (is_table(table)) complete_change(table, stage.change[i], reading);
+  }
+}
+
 /// Bolts that a stage installs, each once.
 void check_install(const Value* own, const Stage& stage, std::set<std::string>& installed,
                    Reading& reading) {
@@ -283,6 +365,13 @@ double longest_by_default(const Model& model, const Stage& stage) {
   return std::max(Stage{}.duration, Stage::crossings * extent_of(model) / slowest);
 }
 
+void check_otherwise(const Value* own, const Stage& stage, Reading& reading) {
+  if (stage.until != StageEnd::time || stage.otherwise != LooseBlocks::stop) return;
+  add_fault(reading, find(own, "otherwise")->place, stage.where.key + ".otherwise",
+            "\"stop\" belongs to a stage with until = \"equilibrium\"",
+            "leave it out, or give until = \"equilibrium\"");
+}
+
 }  // namespace
 
 void complete_stages(const Value& root, Reading& reading) {
@@ -318,6 +407,7 @@ void complete_stages(const Value& root, Reading& reading) {
     complete_masses(own, solver, stage, reading);
     complete_excavation(own, stage, let_go, reading);
     check_install(own, stage, installed, reading);
+    complete_changes(own, stage, reading);
     check_switches(own, stage, acting, known, reading);
     check_acts(own, stage, acting, reading);
     sum += stage.longest();
@@ -326,11 +416,7 @@ void complete_stages(const Value& root, Reading& reading) {
       add_fault(reading, own->place, stage.where.key + ".duration", "is missing",
                 "give a time such as 0.1, or until = \"equilibrium\"");
     }
-    if (stage.until == StageEnd::time && stage.otherwise == LooseBlocks::stop) {
-      add_fault(reading, find(own, "otherwise")->place, stage.where.key + ".otherwise",
-                "\"stop\" belongs to a stage with until = \"equilibrium\"",
-                "leave it out, or give until = \"equilibrium\"");
-    }
+    check_otherwise(own, stage, reading);
     if (stage.damping.local > 0.0) {
       check_local_damping(find(own, "damping"), stage.where.key, solver,
                           "leave it out: until equilibrium this method drops velocities at each "

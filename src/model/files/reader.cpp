@@ -163,6 +163,25 @@ struct ReadInto {
     read_keys(table.keys, object, spot.value, spot.path + '.', spot.reading);
   }
 
+  void operator()(const TableList& tables) const {
+    const List* list = as<List>(spot.value);
+    if (list == nullptr || list->empty()) {
+      return add_fault(spot.reading, spot.value.place, spot.path, "is " + shown(spot.value),
+                       list_remedy(tables));
+    }
+    for (std::size_t i = 0; i < list->size(); ++i) {
+      const Value& value = (*list)[i];
+      const std::string path = fmt::format("{}[{}]", spot.path, i);
+      if (as<Table>(value) == nullptr) {
+        add_fault(spot.reading, value.place, path, "is " + shown(value), list_remedy(tables));
+        continue;
+      }
+      void* object = tables.add(tables.list);
+      *tables.where(object) = where_of(spot.reading, value.place, path);
+      read_keys(tables.keys, object, value, path + '.', spot.reading);
+    }
+  }
+
   std::optional<double> number() const {
     return read_number(spot.value, spot.key, spot.path, spot.reading);
   }

@@ -67,6 +67,8 @@ std::string expected(const Key& key) {
       return "a list of " + quoted_list(rule.words);
     case Kind::table:
       return "a table such as { key = value }";
+    case Kind::tables:
+      return "a list of tables such as [{ key = value }]";
     case Kind::source:
       return "the path of a file in quotes, or a table";
   }

@@ -23,10 +23,7 @@ std::vector<InnerKey> inner_keys(std::span<const Key> keys, void* object) {
   std::vector<InnerKey> list;
   for (const Key& key : keys) {
     if (key.slot == nullptr || key.rule.kind != Kind::table) continue;
-    const Slot slot = key.slot(object);
-    const SubTable* table = std::get_if<SubTable>(&slot);
-    if (table == nullptr) continue;
-    for (const Key& inner : table->keys) list.push_back({key.name, inner.name});
+    for (const Key& inner : inner_keys_of(key.slot(object))) list.push_back({key.name, inner.name});
   }
   return list;
 }
@@ -188,6 +185,12 @@ std::string table_remedy(const SubTable& table) {
   return fmt::format("expects {}a table such as {{ {} = ... }}, of {}",
                      table.file != nullptr ? "the path of a file in quotes, or " : "",
                      known.front(), quoted_list(known));
+}
+
+std::string list_remedy(const TableList& tables) {
+  const std::vector<std::string_view> known = key_names(tables.keys);
+  return fmt::format("expects a list of tables such as [{{ {} = ... }}], of {}", known.front(),
+                     quoted_list(known));
 }
 
 }  // namespace edda

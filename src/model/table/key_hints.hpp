@@ -31,5 +31,7 @@ std::string number_remedy(const Key& key, const Value& value, std::span<const Ke
 
 /// The value that a key requires which is a table, with its keys.
 std::string table_remedy(const SubTable& table);
+/// Likewise a list of tables.
+std::string list_remedy(const TableList& tables);
 
 }  // namespace edda

@@ -45,6 +45,7 @@ std::string value_of(const Key& key, const Slot* slot) {
     }
   }
   if (key.rule.kind == Kind::table) return "a table";
+  if (key.rule.kind == Kind::tables) return "a list of tables";
   return expected(key);
 }
 
@@ -66,10 +67,15 @@ void add_rows(std::span<const Key> keys, void* object, const std::string& prefix
     const Slot* known = slot ? &*slot : nullptr;
     text += fmt::format("| `{}` | {} | {} | {} |\n", name, cell(value_of(key, known)),
                         cell(default_of(key, known, model)), cell(std::string(key.meaning)));
-    if (!slot || !std::holds_alternative<SubTable>(*slot)) continue;
-    const SubTable& table = std::get<SubTable>(*slot);
-    void* inner = table.object != nullptr ? table.object : table.make(table.owner);
-    add_rows(table.keys, inner, name + '.', model, text);
+    if (!slot || inner_keys_of(*slot).empty()) continue;
+    void* inner = nullptr;
+    if (const auto* tables = std::get_if<TableList>(&*slot)) {
+      inner = tables->add(tables->list);
+    } else {
+      const SubTable& table = std::get<SubTable>(*slot);
+      inner = table.object != nullptr ? table.object : table.make(table.owner);
+    }
+    add_rows(inner_keys_of(*slot), inner, name + '.', model, text);
   }
 }
 

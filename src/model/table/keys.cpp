@@ -274,6 +274,15 @@ constexpr std::array ramp_keys{
     Key{"steps", at<&Ramp::steps>, whole(1, 100000), initial, "Number of increments, and so the accuracy of a collapse load."},
 };
 
+constexpr std::array change_keys{
+    Key{"joints", at<&PropertyChange::joints>, joint, otherwise("none; this or material"), "Law of the joints that change."},
+    Key{"material", at<&PropertyChange::material>, material, otherwise("none; this or joints"), "Material of the blocks that change: their strength in zones."},
+    Key{"to", at<&PropertyChange::to>, naming, required, "The law, or the material, that they have from then on. Forces and stresses go on from what they are."},
+    Key{"region", at<&PropertyChange::region>, polygon, otherwise("the whole model"), "Only edges whose middle, or blocks whose centroid, lies in this polygon, as drawn."},
+    Key{"around", at<&PropertyChange::around>, naming, otherwise("none"), "Only those within `distance` of the outline of this opening, as drawn."},
+    Key{"distance", at<&PropertyChange::distance>, number(D::length, above(0)), or_none("required with around"), "How far from that opening."},
+};
+
 constexpr std::array stage_keys{
     Key{"name", at<&Stage::name>, naming, otherwise("none"), "What messages, stages.csv and --set call the stage."},
     Key{"until", at<&Stage::until>, choice, otherwise("`\"time\"`; `\"equilibrium\"` with a ramp"), "Whether it ends at its duration (time) or as soon as the model is in equilibrium (equilibrium); with a ramp, whose end is to be reached in equilibrium (equilibrium) or before which the model is to fail (collapse)."},
@@ -282,6 +291,7 @@ constexpr std::array stage_keys{
     Key{"excavate", at<&Stage::excavate>, name_list, otherwise("none"), "Openings that are excavated at the start of the stage."},
     Key{"relax", at<&Stage::relax>, numbers_of_names(from_to(0, 1)), otherwise("all, when an opening is excavated"), "Part of the wall forces of the excavated rock that has been released by then, all stages together, by opening; the rest remains on the walls, like the support of a nearby face."},
     Key{"install", at<&Stage::install>, name_list, otherwise("bolts that no stage names are there from the start"), "Bolts and patterns of bolts installed at the start of the stage, in the rock as deformed by then."},
+    Key{"change", at<&Stage::change>, tables, otherwise("none"), "Joints and rock that have other properties from the start of the stage on, one change after the other."},
     Key{"activate", at<&Stage::activate>, name_list, otherwise("what no stage names acts from the start"), "Loads, waters, boundaries and ground motions that act from the start of the stage on; their histories count time from then."},
     Key{"deactivate", at<&Stage::deactivate>, name_list, otherwise("none"), "Those that no longer act. A boundary that takes over from another carries the forces of that one."},
     Key{"reset_displacements", at<&Stage::reset_displacements>, flag, initial, "Whether displacements count from the start of this stage."},
@@ -427,6 +437,15 @@ std::span<const Key> keys_of(const FosFails&) {
 
 std::span<const Key> keys_of(const Ramp&) {
   return ramp_keys;
+}
+std::span<const Key> keys_of(const PropertyChange&) {
+  return change_keys;
+}
+
+std::span<const Key> inner_keys_of(const Slot& slot) {
+  if (const auto* table = std::get_if<SubTable>(&slot)) return table->keys;
+  if (const auto* tables = std::get_if<TableList>(&slot)) return tables->keys;
+  return {};
 }
 
 std::span<const Section> sections() {

@@ -40,6 +40,7 @@ enum class Kind {
   varied,        ///< two numbers, from and to, of what the key names
   file,          ///< path of a file, as written relative to the model's
   table,         ///< keys inside a key: damping = { ... }
+  tables,        ///< a list of such tables: change = [{ ... }, { ... }]
   source,        ///< path of a file, or a table
 };
 
@@ -91,12 +92,22 @@ struct SubTable {
 
 using JointMap = std::vector<std::pair<std::string, Index>>;
 
+/// A list of tables in a key.
+struct TableList {
+  std::span<const Key> keys;
+  void* list;
+  std::size_t (*count)(const void* list);
+  void* (*at)(void* list, std::size_t i);
+  void* (*add)(void* list);
+  Where* (*where)(void* object);
+};
+
 /// Typed access to the field that a key fills.
 using Slot = std::variant<bool*, int*, long long*, double*, std::optional<double>*,
                           std::optional<long long>*, std::optional<Restitution>*, std::string*,
                           JointMap*, NumberMap*, VariedRange*, Vec2*, std::optional<Vec2>*, Triple*,
                           std::optional<Triple>*, std::vector<Vec2>*, std::vector<double>*,
-                          std::vector<std::string>*, Choice, SubTable>;
+                          std::vector<std::string>*, Choice, SubTable, TableList>;
 
 struct Key {
   std::string_view name;
@@ -135,6 +146,9 @@ const Section* find_section(std::string_view name, std::span<const Section> amon
 /// A key of that name; "load:NAME" is found by "load:" and any name.
 const Key* find_key(std::span<const Key> keys, std::string_view name);
 std::vector<std::string_view> key_names(std::span<const Key> keys);
+
+/// The keys of the table, or of each table, that a slot holds; else none.
+std::span<const Key> inner_keys_of(const Slot& slot);
 
 /// What a value must be: `a length above 0 such as 2.5 or "2.5 m"`.
 std::string expected(const Key& key);

@@ -53,7 +53,7 @@ constexpr Rule varied(D dimension) {
 }
 constexpr Rule flag = rule(Kind::flag), text = rule(Kind::text), naming = rule(Kind::name),
                choice = rule(Kind::choice), material = rule(Kind::material),
-               joint = rule(Kind::joint), table = rule(Kind::table),
+               joint = rule(Kind::joint), table = rule(Kind::table), tables = rule(Kind::tables),
                point = shape(Kind::point, D::length), polygon = shape(Kind::polygon, D::length),
                polyline = shape(Kind::polyline, D::length), name_list = rule(Kind::names),
                number_list = rule(Kind::numbers), file = rule(Kind::file),

@@ -142,6 +142,7 @@ std::span<const Key> keys_of(const BoltBond&);
 std::span<const Key> keys_of(const BoltDowel&);
 std::span<const Key> keys_of(const FosFails&);
 std::span<const Key> keys_of(const Ramp&);
+std::span<const Key> keys_of(const PropertyChange&);
 
 template <class Field>
 Slot slot_of(Field& field) {
@@ -156,6 +157,14 @@ Slot slot_of(Field& field) {
   } else if constexpr (requires { keys_of(*field); }) {
     return SubTable{keys_of(typename Field::value_type{}), field ? &*field : nullptr, &field,
                     [](void* f) -> void* { return &static_cast<Field*>(f)->emplace(); }, nullptr};
+  } else if constexpr (requires { keys_of(field.front()); }) {
+    using Item = typename Field::value_type;
+    return TableList{keys_of(Item{}),
+                     &field,
+                     [](const void* f) { return static_cast<const Field*>(f)->size(); },
+                     [](void* f, std::size_t i) -> void* { return &(*static_cast<Field*>(f))[i]; },
+                     [](void* f) -> void* { return &static_cast<Field*>(f)->emplace_back(); },
+                     [](void* object) { return &static_cast<Item*>(object)->where; }};
   } else {
     return &field;
   }

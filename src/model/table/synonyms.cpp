@@ -223,9 +223,7 @@ const Key* key_at(std::string_view dotted) {
   const Key* key = find_key(section->keys, rest.substr(0, inner));
   if (key == nullptr || inner == std::string_view::npos) return key;
   Model model;
-  const Slot slot = key->slot(section->add(&model));
-  const SubTable* table = std::get_if<SubTable>(&slot);
-  return table == nullptr ? nullptr : find_key(table->keys, rest.substr(inner + 1));
+  return find_key(inner_keys_of(key->slot(section->add(&model))), rest.substr(inner + 1));
 }
 
 bool is_among(const Key* key, std::span<const Key> keys) {

@@ -1,0 +1,60 @@
+#include "blocks/property_change.hpp"
+
+#include <algorithm>
+
+#include "base/polygon.hpp"
+
+namespace edda {
+namespace {
+
+/// Whether a point, in model coordinates, lies where the change is made.
+class Reach {
+ public:
+  Reach(const Model& model, const PropertyChange& change) : change_(change) {
+    if (change.opening != none)
+      around_ = model.openings[static_cast<std::size_t>(change.opening)].polygon;
+  }
+  bool has(Vec2 p) const {
+    const Ring& region = change_.region;
+    if (!region.empty() && side_of({&region, 1}, p, 0.0) < 0) return false;
+    if (around_.empty() || side_of({&around_, 1}, p, 0.0) >= 0) return true;
+    for (std::size_t k = 0; k < around_.size(); ++k) {
+      const Vec2 a = around_[k], b = around_[(k + 1) % around_.size()];
+      if (distance_to_segment(p, a, b) <= change_.distance) return true;
+    }
+    return false;
+  }
+
+ private:
+  const PropertyChange& change_;
+  Ring around_;
+};
+
+}  // namespace
+
+std::vector<std::uint8_t> change_properties(BlockSet& b, const Model& model,
+                                            const PropertyChange& change) {
+  const Reach reach(model, change);
+  std::vector<std::uint8_t> changed(b.vertex_count(), 0);
+  if (change.material != none) {
+    for (std::size_t i = 0; i < b.size(); ++i) {
+      if (b.material[i] != change.material) continue;
+      if (!reach.has(Vec2{b.centroid_x[i], b.centroid_y[i]} + b.origin)) continue;
+      b.material[i] = change.row;
+      std::fill(changed.begin() + b.vertex_begin[i], changed.begin() + b.vertex_begin[i + 1],
+                std::uint8_t{1});
+    }
+  } else {
+    for (Id e = 0; e < b.vertex_count(); ++e) {
+      const Index joint = b.edge_joint[e] != none ? b.edge_joint[e] : model.contact.joint;
+      if (joint != change.joints) continue;
+      if (!reach.has(0.5 * (b.vertex(e) + b.vertex(b.next[e])) + b.origin)) continue;
+      b.edge_joint[e] = change.row;
+      changed[e] = 1;
+    }
+  }
+  const bool any = std::any_of(changed.begin(), changed.end(), [](auto c) { return c != 0; });
+  return any ? changed : std::vector<std::uint8_t>{};
+}
+
+}  // namespace edda

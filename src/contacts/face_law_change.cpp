@@ -1,0 +1,100 @@
+#include "contacts/face_law_change.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "contacts/evaluate_face.hpp"
+#include "contacts/face_bonds.hpp"
+#include "contacts/find_faces.hpp"
+#include "contacts/strength.hpp"
+
+namespace edda {
+namespace {
+
+/// What a face was before its law changed.
+struct Before {
+  std::size_t face;
+  std::uint16_t law;
+  double stiffness, shear_stiffness;
+};
+
+/// The law of face k as drawn, or of edges that have met since.
+std::uint16_t law_of(const FaceSet& c, const BlockSet& b, const LawTable& laws, bool drawn,
+                     std::size_t k) {
+  const Id e = c.edge[k], f = c.facing[k];
+  const Index of_e = b.material[b.vertex_block[e]], of_f = b.material[b.vertex_block[f]];
+  return drawn ? laws.resolve(b.edge_joint[e], b.edge_joint[f], of_e, of_f)
+               : laws.resolve_met(b.edge_joint[e], b.edge_joint[f], of_e, of_f);
+}
+
+/// Whether the face has lost nothing of the strength of its law.
+bool is_whole(const FaceSet& c, const Law& law, std::size_t k) {
+  if (c.is(FaceFlag::opened, k) || c.is(FaceFlag::slipped, k)) return false;
+  if (law.type == LawType::slip_weakening) return std::isfinite(c.slip_so_far[k]);
+  return !may_weaken(law) || c.bond(k) == BondState::intact;
+}
+
+/// The strength of the new law, by what has become of the face so far.
+void take_strength(FaceSet& c, const BlockSet& b, const Pose& pose, const LawTable& laws,
+                   const Before& was, const Face& face) {
+  const std::size_t k = was.face;
+  const Law &from = laws.rows[was.law], &law = laws.rows[c.law[k]];
+  const bool weakens = law.type == LawType::slip_weakening;
+  const bool whole = is_whole(c, from, k) && may_weaken(law) &&
+                     (c.bonded(k) || touch_as_drawn(c, b, pose, face, k, drawn_gap));
+  const bool cracked = c.bond(k) == BondState::cracked && may_weaken(law) && !weakens;
+  const double slip = std::isfinite(c.slip_so_far[k]) ? c.slip_so_far[k] : 0.0;
+  const double started = whole || !weakens ? slip : first_slip(law);
+  set_bond(c, laws,
+           whole && !weakens ? BondState::intact
+           : cracked         ? BondState::cracked
+                             : BondState::unbonded,
+           started, k);
+  c.set(FaceFlag::glued, k, whole && law.glued);
+  const bool flush =
+      std::min(face.closure.a, face.closure.b) >= -touching_gap * smaller_size(c, b, k);
+  if (whole) c.set(FaceFlag::carries_tension, k, flush && (law.glued || law.peak_tension > 0.0));
+}
+
+/// Lets the face carry what it has carried with its new stiffness.
+void keep_forces(FaceSet& c, FaceStates& states, const BlockSet& b, const Pose& pose,
+                 const Before& was, const Face& face) {
+  const std::size_t k = was.face;
+  const double softer = was.stiffness / c.stiffness[k];
+  if (c.carries_tension(k) || std::max(face.closure.a, face.closure.b) > 0.0) {
+    c.locked_closure_a[k] += (softer - 1.0) * face.closure.a;
+    c.locked_closure_b[k] += (softer - 1.0) * face.closure.b;
+  }
+  take_element(states.now[k], face_at(c, b, pose.x, pose.y, k));
+  take_element(states.before[k], face_at(c, b, pose.x1, pose.y1, k));
+  const double softer_in_shear = was.shear_stiffness / c.shear_stiffness[k];
+  for (FaceFields* of : {&states.now[k], &states.before[k]}) {
+    for (double* slip : {&of->slip_a, &of->slip_b, &of->trial_a, &of->trial_b})
+      *slip *= softer_in_shear;
+    of->spring /= softer_in_shear;
+  }
+}
+
+}  // namespace
+
+void change_laws(FaceSet& c, FaceStates& states, const BlockSet& old, const BlockSet& b,
+                 const Pose& pose, const LawTable& laws, const std::vector<std::uint8_t>& changed) {
+  std::vector<Before> change;
+  for (std::size_t k = 0; k < c.size(); ++k) {
+    if (changed[c.edge[k]] == 0 && changed[c.facing[k]] == 0) continue;
+    const bool drawn = c.law[k] == law_of(c, old, laws, true, k);
+    const std::uint16_t law = law_of(c, b, laws, drawn, k);
+    if (law == c.law[k]) continue;
+    change.push_back({k, c.law[k], c.stiffness[k], c.shear_stiffness[k]});
+    c.law[k] = law;
+  }
+  if (change.empty()) return;
+  complete_faces(c, b, laws);
+  for (const Before& was : change) {
+    const Face face = face_at(c, b, pose.x, pose.y, was.face);
+    take_strength(c, b, pose, laws, was, face);
+    keep_forces(c, states, b, pose, was, face);
+  }
+}
+
+}  // namespace edda
