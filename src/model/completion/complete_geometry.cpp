@@ -155,6 +155,14 @@ double smallest_spacing(const Model& model) {
   return least;
 }
 
+/// See theory, section 15.1.
+void complete_voronoi(const Value& root, Reading& reading) {
+  std::optional<Voronoi>& voronoi = reading.model.voronoi;
+  if (!voronoi || find(find(&root, "voronoi"), "min_edge") != nullptr) return;
+  constexpr double part_of_size = 0.2;
+  voronoi->min_edge = part_of_size * voronoi->size;
+}
+
 /// Two hundredths of the spacing, since a strip so thin is an accident of the positions of joints,
 /// far below the spacing of a set; and the area of a square with sides twice as long.
 void complete_quality(const Value& root, Reading& reading) {
@@ -197,6 +205,7 @@ void complete_geometry(const Value& root, Reading& reading) {
   const Model& model = reading.model;
   check_walls(root, reading);
   complete_quality(root, reading);
+  complete_voronoi(root, reading);
   if (!model.domain || model.domain->outline.empty()) return;
   complete_snap(root, reading);
   const bool sized = !model.voronoi || model.voronoi->size > 0.0;
