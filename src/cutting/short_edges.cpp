@@ -1,9 +1,9 @@
 #include "cutting/short_edges.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <functional>
+#include <map>
 #include <optional>
 #include <queue>
 #include <tuple>
@@ -39,7 +39,7 @@ class Collapse {
     do {
       while (pass()) {
       }
-    } while (join_triangles());
+    } while (join_thin());
     std::erase_if(tiling_.ring, [](const std::vector<int>& ring) { return ring.empty(); });
   }
 
@@ -109,10 +109,16 @@ class Collapse {
     return ring;
   }
 
+  Ring points(const std::vector<int>& ring) const {
+    Ring all;
+    for (const int v : ring) all.push_back(place(v));
+    return all;
+  }
+
   bool is_sound(const std::vector<int>& ring, int moved, Vec2 to) const {
-    Ring points;
-    for (const int v : ring) points.push_back(v == moved ? to : place(v));
-    return signed_area(points) > 0.0 && !self_crossing(points);
+    Ring all = points(ring);
+    all[static_cast<std::size_t>(std::find(ring.begin(), ring.end(), moved) - ring.begin())] = to;
+    return signed_area(all) > 0.0 && !self_crossing(all);
   }
 
   std::vector<int> around(int a, int b) const {
@@ -174,49 +180,83 @@ class Collapse {
     }
   }
 
-  /// Joins triangles with edges that are short still to the polygon beyond their longest edge;
-  /// whether there were any.
-  bool join_triangles() {
+  /// Joins polygons that are thinner than an edge may be short; whether there were any.
+  bool join_thin() {
     bool any = false;
-    for (std::size_t f = 0; f < tiling_.ring.size(); ++f) any = join_triangle(f) || any;
+    for (std::size_t f = 0; f < tiling_.ring.size(); ++f) {
+      if (!tiling_.ring[f].empty() && least_width(points(tiling_.ring[f])) < least_) {
+        any = join_beyond_longest(static_cast<int>(f)) || any;
+      }
+    }
     return any;
   }
 
-  bool join_triangle(std::size_t f) {
-    std::vector<int> ring = tiling_.ring[f];
-    if (ring.size() != 3) return false;
-    const auto length = [&](std::size_t i) {
-      return norm(place(ring[(i + 1) % 3]) - place(ring[i]));
-    };
-    if (!(std::min({length(0), length(1), length(2)}) < least_)) return false;
-    std::array<std::size_t, 3> order{0, 1, 2};
-    std::sort(order.begin(), order.end(),
-              [&](std::size_t i, std::size_t j) { return length(i) > length(j); });
-    return std::any_of(order.begin(), order.end(), [&](std::size_t i) {
-      std::rotate_copy(tiling_.ring[f].begin(), tiling_.ring[f].begin() + static_cast<int>(i),
-                       tiling_.ring[f].end(), ring.begin());
-      return join(static_cast<int>(f), ring[0], ring[1], ring[2]);
+  bool join_beyond_longest(int f) {
+    const std::vector<int>& ring = tiling_.ring[at(f)];
+    std::vector<std::tuple<double, int, int>> edges;
+    for (std::size_t i = 0; i < ring.size(); ++i) {
+      const int v = ring[i], w = ring[i + 1 == ring.size() ? 0 : i + 1];
+      edges.emplace_back(-norm(place(w) - place(v)), v, w);
+    }
+    std::sort(edges.begin(), edges.end());
+    return std::any_of(edges.begin(), edges.end(), [&](const auto& edge) {
+      const int g = beyond(f, std::get<1>(edge), std::get<2>(edge));
+      return g >= 0 && join(f, g);
     });
   }
 
-  /// Joins triangle f = (v, w, u) to the polygon beyond its edge from v to w, unless that has u.
-  bool join(int f, int v, int w, int u) {
+  static bool has_edge(const std::vector<int>& ring, int v, int w) {
+    const auto i = std::find(ring.begin(), ring.end(), v);
+    return i != ring.end() && (i + 1 == ring.end() ? ring.front() : *(i + 1)) == w;
+  }
+
+  /// The other polygon at the edge from v to w of polygon f; -1 on the border.
+  int beyond(int f, int v, int w) const {
     for (const int g : polygons_[at(v)]) {
-      std::vector<int>& ring = tiling_.ring[at(g)];
-      const auto from = std::find(ring.begin(), ring.end(), w);
-      if (g == f || from == ring.end() || std::count(ring.begin(), ring.end(), u) > 0) continue;
-      ring.insert(from + 1, u);
-      tiling_.ring[at(f)].clear();
-      for (const int node : {v, w, u}) std::erase(polygons_[at(node)], f);
-      polygons_[at(u)].push_back(g);
-      for (const int node : {v, w}) {  // of the border, with nothing else that ends there
-        if (polygons_[at(node)].size() > 1 || freedom_[at(node)] != Freedom::side) continue;
-        std::erase(ring, node);
-        polygons_[at(node)].clear();
-      }
-      return true;
+      if (g != f && has_edge(tiling_.ring[at(g)], w, v)) return g;
     }
-    return false;
+    return -1;
+  }
+
+  /// The edges of polygons f and g but those between them, by the node at which each begins;
+  /// nothing where they are no single ring.
+  std::optional<std::vector<int>> united(int f, int g) const {
+    std::map<int, int> next;
+    for (const auto& [one, other] : {std::pair{f, g}, std::pair{g, f}}) {
+      const std::vector<int>& ring = tiling_.ring[at(one)];
+      for (std::size_t i = 0; i < ring.size(); ++i) {
+        const int v = ring[i], w = ring[i + 1 == ring.size() ? 0 : i + 1];
+        if (has_edge(tiling_.ring[at(other)], w, v)) continue;
+        if (!next.emplace(v, w).second) return std::nullopt;
+      }
+    }
+    std::vector<int> ring;
+    int v = next.begin()->first;
+    do {
+      ring.push_back(v);
+      v = next.at(v);
+    } while (v != ring.front());
+    if (ring.size() < next.size()) return std::nullopt;
+    return ring;
+  }
+
+  /// Joins polygon f to g, where that leaves one ring. Nodes of the border at which nothing ends
+  /// any more go.
+  bool join(int f, int g) {
+    auto ring = united(f, g);
+    if (!ring) return false;
+    for (const int side : {f, g}) {
+      for (const int v : tiling_.ring[at(side)]) std::erase(polygons_[at(v)], side);
+    }
+    for (const int v : *ring) polygons_[at(v)].push_back(g);
+    std::erase_if(*ring, [&](int v) {
+      const bool idle = polygons_[at(v)].size() == 1 && freedom_[at(v)] == Freedom::side;
+      if (idle) polygons_[at(v)].clear();
+      return idle;
+    });
+    tiling_.ring[at(f)].clear();
+    tiling_.ring[at(g)] = std::move(*ring);
+    return true;
   }
 
   Tiling& tiling_;

@@ -17,9 +17,10 @@ struct Tiling {
 /// Collapses edges shorter than `least`, m, to points, the shortest first, as long as each polygon
 /// stays simple, with an interior. Nodes inside are free; those of the border move along its
 /// straight sides, whose corners stay, so that the border stays what it was. A node off the line
-/// between its neighbours on the border by more than `straight`, m, is a corner. A triangle whose
-/// short edge cannot collapse is joined to the polygon beyond its longest edge. What is short then
-/// lies on the border itself, or between two of its sides. O(n log n).
+/// between its neighbours on the border by more than `straight`, m, is a corner. What is thinner
+/// than `least`, as triangles whose short edge cannot collapse, is joined to the polygon beyond its
+/// longest edge. Edges that are short then lie on the border itself, or between two of its sides.
+/// O(n log n).
 void collapse_short_edges(Tiling& tiling, double least, double straight);
 
 }  // namespace edda

@@ -103,6 +103,16 @@ TEST(ShortEdges, OfATriangleJoinItToItsNeighbour) {
   EXPECT_EQ(t.ring[0], (std::vector<int>{0, 1, 2, 3}));
 }
 
+/// Without a short edge, but thinner than one.
+TEST(ShortEdges, AreNoLongerThanAPolygonIsWide) {
+  Tiling t{{{0, 0}, {1, 0}, {1, 1}, {0, 1}, {0.5, 0.1}}, {{0, 1, 4}, {0, 4, 1, 2, 3}}};
+  collapse_short_edges(t, 0.09, straight);
+  EXPECT_EQ(t.ring.size(), 2u);
+  collapse_short_edges(t, 0.2, straight);  // two edges between them go
+  ASSERT_EQ(t.ring.size(), 1u);
+  EXPECT_EQ(t.ring[0], (std::vector<int>{0, 1, 2, 3}));
+}
+
 TEST(ShortEdges, OfALargeTriangleWithoutAny) {
   Tiling t{{{0, 0}, {1, 0}, {1, 1}, {0, 1}, {0.5, 0}, {1, 0.5}}, {{4, 1, 5}, {0, 4, 5, 2, 3}}};
   const Tiling before = t;
