@@ -318,7 +318,7 @@ export class App {
     const status = summary?.status ?? (run.served ? 'going on' : 'not ended');
     const chip = byId('status');
     const doubts = failed.length === 0 ? '' : failed.length === 1 ? ' \u00b7 a check does not hold' : ` \u00b7 ${failed.length} checks do not hold`;
-    chip.textContent = `${status} \u00b7 ${mesh.blocks.toLocaleString('en')} blocks${doubts}`;
+    chip.textContent = `${status} \u00b7 ${mesh.blocks.toLocaleString('en')} ${mesh.blocks === 1 ? 'block' : 'blocks'}${doubts}`;
     chip.title = summary?.message ?? '';
     chip.classList.toggle('bad', status === 'failed' || status === 'collapsed' || failed.length > 0);
     byId('failed').hidden = failed.length === 0;

@@ -82,8 +82,8 @@ void print_end(const LimitResult& r, const std::string& folder) {
   add(r.mechanism.has_value(), "mechanism.png");
   add(r.other_motion.has_value(), "mechanism_other_end.png");
   add(!r.forces.empty(), "thrust.png");
-  fmt::print("  {} rigid blocks, {} joints, {} of wall time; results in {}/{}\n", r.blocks,
-             r.joints, duration_text(r.seconds), folder,
+  fmt::print("  {}, {}, {} of wall time; results in {}/{}\n", counted(r.blocks, "rigid block"),
+             counted(r.joints, "joint"), duration_text(r.seconds), folder,
              pictures.empty() ? "" : " (" + pictures + ")");
 }
 

@@ -71,8 +71,9 @@ class ForPeople : public RunReport {
     if (o.status == Status::failed) fmt::print(stderr, "edda: {}\n", o.message);
     if (quiet_) return;
     fmt::print("{}: {}\n", status_name(o.status), o.message);
-    fmt::print("  {:.6g} s in {} steps, {} of wall time; {} contacts closed at the end\n", o.time,
-               o.steps, duration_text(o.wall.total), o.contacts);
+    fmt::print("  {:.6g} s in {}, {} of wall time; {} closed at the end\n", o.time,
+               counted(o.steps, "step"), duration_text(o.wall.total),
+               counted(o.contacts, "contact"));
     for (const RampOutcome& r : o.ramps) {
       const std::string& stage = stages_[r.stage];
       if (o.message.starts_with(stage + " holds") || o.message.starts_with(stage + " is in"))

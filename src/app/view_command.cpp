@@ -9,6 +9,7 @@
 
 #include "app/common.hpp"
 #include "app/plot_source.hpp"
+#include "base/text.hpp"
 #include "model/read_model.hpp"
 #include "view/page.hpp"
 #include "view/server.hpp"
@@ -49,7 +50,7 @@ int write(ViewRun& run, const ViewArguments& args) {
     return exit_code::failed;
   }
   const PageReport& r = report.value();
-  fmt::print("wrote {}: {} frames, {:.1f} MB\n", path, r.frames,
+  fmt::print("wrote {}: {}, {:.1f} MB\n", path, counted(r.frames, "frame"),
              1e-6 * static_cast<double>(r.bytes));
   if (r.frames < r.of) {
     fmt::print(

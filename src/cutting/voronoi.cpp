@@ -1,13 +1,19 @@
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <exception>
 #include <memory>
+#include <utility>
+#include <vector>
 
 #include "base/place.hpp"
 #include "base/random.hpp"
 #include "base/rings.hpp"
 #include "cutting/geos.hpp"
+#include "cutting/noding.hpp"
+#include "cutting/planar_graph.hpp"
 #include "cutting/random_lines.hpp"
+#include "cutting/short_edges.hpp"
 
 namespace edda {
 namespace {
@@ -62,26 +68,71 @@ std::vector<Vec2> centred(const std::vector<Vec2>& points, const geos::geom::Env
   return moved;
 }
 
-/// Whether a part of the segment lies inside.
-bool meets(const Ring& ring, Vec2 a, Vec2 b, double snap) {
-  const double length = norm(b - a);
-  if (length == 0.0) return false;
-  return !common(clip_line(ring, a, (b - a) / length, snap), {{0.0, length}}).empty();
+/// The edges of the diagram around these points.
+std::vector<LineString> diagram_edges(const std::vector<Vec2>& points,
+                                      const geos::geom::Envelope& box,
+                                      const geos::geom::GeometryFactory& factory) {
+  geos::triangulate::VoronoiDiagramBuilder builder;
+  set_up(builder, points, box);
+  const auto edges = builder.getDiagramEdges(factory);
+  std::vector<LineString> lines;
+  for (std::size_t i = 0; i < edges->getNumGeometries(); ++i) {
+    const auto line = edges->getGeometryN(i)->getCoordinates();
+    for (std::size_t k = 0; k + 1 < line->getSize(); ++k) {
+      lines.push_back(
+          {{{line->getX(k), line->getY(k)}, {line->getX(k + 1), line->getY(k + 1)}}, 0});
+    }
+  }
+  return lines;
 }
 
-void add_edge(LineWork& work, const Ring& region, Vec2 a, Vec2 b, Index source, double snap) {
-  if (region.empty()) {
-    if (meets(work.outline, a, b, snap)) work.lines.push_back({{a, b}, source});
-    return;
+/// The polygons of the diagram inside all of the borders.
+Result<Tiling> polygons_inside(std::vector<LineString> edges, const std::vector<Ring>& borders,
+                               double snap, const Where& where) {
+  LineWork work;
+  work.lines = std::move(edges);
+  work.sources.push_back({LineKind::voronoi, 0, none, 0.0, {}});
+  for (const Ring& border : borders) {
+    const auto source = static_cast<Index>(work.sources.size());
+    work.sources.push_back({LineKind::outline, source - 1, none, 0.0, {}});
+    work.lines.push_back({closed(border), source});
   }
-  const double length = norm(b - a);
-  if (length == 0.0) return;
-  const Vec2 along = (b - a) / length;
-  for (const Stretch& part : common(clip_line(region, a, along, snap), {{0.0, length}})) {
-    const Vec2 from = part.first == 0.0 ? a : a + part.first * along;
-    const Vec2 to = part.second == length ? b : a + part.second * along;
-    work.lines.push_back({{from, to}, source});
+  Result<NodedLines> noded = node_lines(work, snap, where);
+  if (!noded.ok()) return noded.faults();
+  PlanarGraph graph = planar_graph(std::move(noded.value()), work.sources);
+  trim_free_ends(graph);
+  Cycles cycles = trace_cycles(graph);
+  if (!remove_bridges(graph, cycles).empty()) cycles = trace_cycles(graph);
+  const Faces faces = find_faces(graph, std::move(cycles));
+  std::vector<std::uint8_t> inside(faces.outer.size(), 1);
+  for (std::size_t s = 1; s < work.sources.size(); ++s) {
+    const std::vector<std::uint8_t> of_border = inside_ring(graph, faces, static_cast<Index>(s));
+    for (std::size_t f = 0; f < inside.size(); ++f) inside[f] &= of_border[f];
   }
+  Tiling tiling{graph.node, {}};
+  for (std::size_t f = 1; f < inside.size(); ++f) {
+    if (inside[f] == 0) continue;
+    std::vector<int>& ring = tiling.ring.emplace_back();
+    for_each_half_edge(faces, static_cast<int>(f),
+                       [&](int h) { ring.push_back(origin_of(graph, h)); });
+  }
+  return tiling;
+}
+
+/// The edges between two polygons.
+std::vector<std::pair<int, int>> inner_edges(const Tiling& tiling) {
+  std::vector<std::pair<int, int>> all, inner;
+  for (const std::vector<int>& ring : tiling.ring) {
+    for (std::size_t i = 0; i < ring.size(); ++i) {
+      const int v = ring[i], w = ring[i + 1 == ring.size() ? 0 : i + 1];
+      all.emplace_back(std::min(v, w), std::max(v, w));
+    }
+  }
+  std::sort(all.begin(), all.end());
+  for (std::size_t i = 0; i + 1 < all.size(); ++i) {
+    if (all[i] == all[i + 1]) inner.push_back(all[i]);
+  }
+  return inner;
 }
 
 }  // namespace
@@ -96,16 +147,16 @@ Faults add_voronoi(LineWork& work, const Voronoi& voronoi, Index source, Vec2 or
     const std::uint64_t key = mixed(mixed(0, "voronoi"), static_cast<std::uint64_t>(voronoi.seed));
     std::vector<Vec2> points = random_points(box, voronoi.size, Random(key));
     for (int round = 0; round < voronoi.smoothing; ++round) points = centred(points, box, *factory);
-    geos::triangulate::VoronoiDiagramBuilder builder;
-    set_up(builder, points, box);
-    const auto edges = builder.getDiagramEdges(*factory);
-    for (std::size_t i = 0; i < edges->getNumGeometries(); ++i) {
-      const auto line = edges->getGeometryN(i)->getCoordinates();
-      for (std::size_t k = 0; k + 1 < line->getSize(); ++k) {
-        add_edge(work, region, {line->getX(k), line->getY(k)},
-                 {line->getX(k + 1), line->getY(k + 1)}, source, snap);
-      }
-    }
+    std::vector<Ring> borders{work.outline};
+    if (!region.empty()) borders.push_back(region);
+    const double fine = std::min(snap, 1e-9 * size_of(work.outline));
+    Result<Tiling> tiling =
+        polygons_inside(diagram_edges(points, box, *factory), borders, fine, voronoi.where);
+    if (!tiling.ok()) return tiling.faults();
+    Tiling& t = tiling.value();
+    collapse_short_edges(t, voronoi.min_edge, 2.0 * fine);
+    const auto at = [&](int v) { return t.node[static_cast<std::size_t>(v)]; };
+    for (const auto& [v, w] : inner_edges(t)) work.lines.push_back({{at(v), at(w)}, source});
   } catch (const std::exception& error) {
     return {{member_of(voronoi.where, "size"),
              std::string("its polygons cannot be built: ") + error.what(),

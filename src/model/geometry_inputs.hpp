@@ -127,6 +127,7 @@ struct FractureNetwork {
 struct Voronoi {
   double size = 0.0;  ///< m: side of a square as large as the mean polygon
   int smoothing = 5;  ///< iterations that move points to the centroids of their polygons (Lloyd)
+  double min_edge = 0.0;  ///< m: shorter edges become points
   Index joint = none;
   Ring region;  ///< empty: the whole domain
   long long seed = 0;

@@ -201,10 +201,13 @@ LockedRow locked_row(const Simulation& sim) {
   const BlockSet& b = sim.scene->blocks;
   LockedRow found;
   const std::vector<Row> rows = rows_of(sim);
+  const auto continues = [&](Id block) {  // or ends, or is held
+    return rows[block].alone || !is_free(b, sim.motion.state, block);
+  };
   for (Id i = 0; i < b.size(); ++i) {
     const Row& row = rows[i];
     if (!is_free(b, sim.motion.state, i) || b.bends(i) || !row.alone || row.joints != 2 ||
-        row.other[0] == row.other[1])
+        row.other[0] == row.other[1] || !continues(row.other[0]) || !continues(row.other[1]))
       continue;
     const Vec2 centre{b.centroid_x[i], b.centroid_y[i]}, to_first = row.middle[0] - centre,
                                                          to_second = row.middle[1] - centre;
@@ -213,6 +216,7 @@ LockedRow locked_row(const Simulation& sim) {
     found.blocks.push_back(i);
     found.stiffness += row.stiffness;
     found.kn += bar_modulus(b, i) / norm(row.middle[1] - row.middle[0]);
+    found.triangles = found.triangles || corners_of(b, i) == 3;
   }
   if (found.blocks.empty()) return found;
   const auto count = static_cast<double>(found.blocks.size());
@@ -248,10 +252,10 @@ void warn_of_locking(const Simulation& sim, std::vector<std::string>& warnings) 
   warnings.push_back(fmt::format(
       "the bending deflection of {} glued in a row ({} first) comes out about {:.0f} % too small: "
       "blocks have one strain each and do not bend, and the joints across the row are {:.2g} times "
-      "too stiff to bend for them; use deformation = \"corners\", or give these joints kn = "
+      "too stiff to bend for them; use deformation = \"{}\", or give these joints kn = "
       "E/c = {:.2g} Pa/m, with the length c of a block along the row (theory, section 4.9)",
       counted(row.blocks.size(), "block"), block_label(sim.scene->blocks, row.blocks.front()),
-      100.0 * row.lost, row.stiffness, row.kn));
+      100.0 * row.lost, row.stiffness, row.triangles ? "zones" : "corners", row.kn));
 }
 
 }  // namespace edda

@@ -29,12 +29,14 @@ double lost_closure(double x);
 /// The same among blocks that bend, by the ratio of their size to the radius.
 double lost_by_size(double size);
 
-/// Blocks glued in a row, which loads bend.
+/// Blocks glued in a row, which loads bend: each touches two others alone, which do so too, end the
+/// row or are fixed.
 struct LockedRow {
   std::vector<Id> blocks;  ///< ascending
   double stiffness = 0.0;  ///< of their joints over that of the blocks, in bending, the mean
   double lost = 0.0;       ///< part of the deflection
   double kn = 0.0;         ///< Pa/m: joints that bend as the blocks would
+  bool triangles = false;  ///< among them, which have no corner to spare for bending
 };
 LockedRow locked_row(const Simulation& sim);
 

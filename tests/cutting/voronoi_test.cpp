@@ -2,6 +2,7 @@
 // seed.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -120,6 +121,76 @@ TEST(Voronoi, FitsAnOutlineThatIsNotConvexAndOpenings) {
   add_opening(model, box(2, 2, 6, 6));
   const PolygonSet set = cut(model);
   EXPECT_NEAR(set.report.area_out, 240.0 + 120.0 - 16.0, 1e-6);
+}
+
+double shortest_edge(const PolygonSet& set) {
+  double least = 1e300;
+  for (const BlockPolygon& block : set.blocks) {
+    const Ring& ring = block.rings[0];
+    for (std::size_t i = 0; i < ring.size(); ++i) {
+      least = std::min(least, norm(ring[(i + 1) % ring.size()] - ring[i]));
+    }
+  }
+  return least;
+}
+
+/// Length of the edges of blocks without a law: those on the outline.
+double length_outside(const PolygonSet& set) {
+  return length_by_law(set.blocks)[none];
+}
+
+TEST(Voronoi, ShortEdgesBecomePoints) {
+  for (const int smoothing : {0, 5}) {
+    for (long long seed = 1; seed <= 5; ++seed) {
+      Model model = voronoi_model(30, 20, 1.0, smoothing, seed);
+      const PolygonSet all = cut(model);
+      model.voronoi->min_edge = 0.2;
+      const PolygonSet set = cut(model);
+      EXPECT_LT(shortest_edge(all), 0.05);
+      EXPECT_GE(shortest_edge(set), 0.2 - 1e-9);
+      EXPECT_NEAR(length_outside(set), 100.0, 1e-9);
+      EXPECT_NEAR(set.report.area_out, 600.0, 1e-9);
+      EXPECT_EQ(set.report.dangling + set.report.bridging, 0);
+      const auto count = static_cast<double>(all.blocks.size());
+      EXPECT_NEAR(static_cast<double>(set.blocks.size()), count, 0.06 * count) << smoothing;
+    }
+  }
+}
+
+/// The corners of outline and region are those given, and what lies between them is straight.
+TEST(Voronoi, ShortEdgesLeaveTheBordersAsTheyAre) {
+  Model model = voronoi_model(30, 20, 1.5, 3, 7);
+  model.domain->outline = {{0, 0}, {30, 0}, {30, 8.1}, {29, 20}, {3, 20}, {0, 13}};
+  model.voronoi->region = {{5, 5}, {20, 4}, {33, 15}, {12, 9}, {6, 14}};
+  const PolygonSet all = cut(model);
+  model.voronoi->min_edge = 0.3;
+  const PolygonSet set = cut(model);
+  EXPECT_NEAR(length_outside(set), length_outside(all), 1e-9);
+  EXPECT_NEAR(set.report.area_out, all.report.area_out, 1e-9);
+  for (const Ring* border : {&model.domain->outline, &model.voronoi->region}) {
+    for (const Vec2 corner : *border) {
+      double nearest = 1e300;
+      for (const BlockPolygon& block : set.blocks) {
+        for (const Vec2 p : block.rings[0]) {
+          nearest = std::min(nearest, norm(p + set.origin - corner));
+        }
+      }
+      if (corner.x > 30.0) continue;  // of the region, outside
+      EXPECT_LT(nearest, 1e-7) << corner.x << ' ' << corner.y;
+    }
+  }
+}
+
+TEST(Voronoi, ShortEdgesAreTheSameFarAway) {
+  Model model = voronoi_model(30, 20, 1.5, 5, 2);
+  model.voronoi->min_edge = 0.3;
+  const PolygonSet here = cut(model);
+  for (Vec2& p : model.domain->outline) p += Vec2{4096.0, -512.0};
+  const PolygonSet there = cut(model);
+  ASSERT_EQ(here.blocks.size(), there.blocks.size());
+  for (std::size_t i = 0; i < here.blocks.size(); ++i) {
+    EXPECT_EQ(here.blocks[i].rings, there.blocks[i].rings);
+  }
 }
 
 /// Tips of cells that walls cut off join a cell beside them: borders of cells are no joints that

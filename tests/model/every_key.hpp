@@ -123,6 +123,7 @@ length = { distribution = "exponential", mean = 2 }
 [voronoi]
 size = 2
 smoothing = 3
+min_edge = "50 cm"
 joint = "glue"
 region = [[11, 1], [12, 1], [12, 2]]
 seed = 9

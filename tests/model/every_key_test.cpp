@@ -166,6 +166,7 @@ void expect_every_joint_key(const Model& m) {
   EXPECT_EQ(m.networks[1].length.max, 4.0);
   EXPECT_EQ(m.voronoi->size, 2.0);
   EXPECT_EQ(m.voronoi->smoothing, 3);
+  EXPECT_EQ(m.voronoi->min_edge, 0.5);
   EXPECT_EQ(m.voronoi->joint, 0);
   EXPECT_EQ(m.voronoi->region.size(), 3U);
   EXPECT_EQ(m.voronoi->seed, 9);

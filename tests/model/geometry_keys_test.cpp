@@ -94,6 +94,8 @@ TEST(Quality, DefaultsFollowTheSmallestSpacing) {
   EXPECT_NEAR(given.quality.min_area, 0.01, 1e-15);
   const Model voronoi = read(base_model + "[voronoi]\nsize = 0.5\n");
   EXPECT_NEAR(voronoi.quality.min_edge, 0.01, 1e-15);
+  EXPECT_NEAR(voronoi.voronoi->min_edge, 0.1, 1e-15);
+  EXPECT_EQ(read(base_model + "[voronoi]\nsize = 0.5\nmin_edge = 0\n").voronoi->min_edge, 0.0);
   const Model none_given =
       read(base_with("[[joint_set]]\nname = \"bedding\"\nangle = 45.0\nspacing = 2.0\n", ""));
   EXPECT_EQ(none_given.quality.min_area, 0.0);
@@ -171,6 +173,8 @@ std::vector<Bad> bad_networks() {
       Bad{"[[fracture_network]]\nlength = { mean = 2 }\np21 = 1\n", 42, "fracture_network.0.angle",
           "is missing"},
       Bad{"[voronoi]\nsize = 0\n", 43, "voronoi.size", "out of range"},
+      Bad{"[voronoi]\nsize = 0.5\nmin_edge = 0.3\n", 44, "voronoi.min_edge",
+          "too long for polygons"},
       Bad{"[voronoi]\nsize = 1e-3\n", 43, "voronoi.size", "blocks would be cut"},
   };
 }

@@ -157,6 +157,30 @@ TEST(Locking, IsWarnedOfWhereItBends) {
   EXPECT_FALSE(warned(coulomb("1e5")));
   EXPECT_TRUE(warned(coulomb("20e6")));
   EXPECT_FALSE(warned(tunnel("0 60 120", 1.3, 3.0, "")));
+  // A triangle at the edge of a sample is no row, though two joints hold it on opposite sides.
+  const std::string sample = R"(
+[materials.rock]
+density = 2600
+young = 30e9
+poisson = 0.2
+[joints.j]
+type = "glued"
+[domain]
+outline = [[0, 0], [2, 0], [2, 2], [0, 2]]
+joint = "j"
+[[trace]]
+points = [[0, 1], [2, 1]]
+[[trace]]
+points = [[1, 0.2], [1, 2]]
+[[trace]]
+points = [[0.5, 0], [1, 0.2], [1.5, 0]]
+[[boundary]]
+sides = ["top"]
+type = "fixed"
+[[stage]]
+until = "equilibrium"
+)";
+  EXPECT_FALSE(warned(sample));
   // As blocks are by default.
   EXPECT_FALSE(warned(beam("[0, -1e4]", "", "")));
   EXPECT_FALSE(warned(tunnel("0 90", 1.0, 4.0, "", "")));

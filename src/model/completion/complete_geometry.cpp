@@ -155,6 +155,22 @@ double smallest_spacing(const Model& model) {
   return least;
 }
 
+/// Polygons keep their shapes up to half of their size (theory, section 15.1).
+void complete_voronoi(const Value& root, Reading& reading) {
+  std::optional<Voronoi>& voronoi = reading.model.voronoi;
+  if (!voronoi || !(voronoi->size > 0.0)) return;
+  constexpr double part_of_size = 0.2, largest_part = 0.5;
+  const Value* min_edge = find(find(&root, "voronoi"), "min_edge");
+  if (min_edge == nullptr) {
+    voronoi->min_edge = part_of_size * voronoi->size;
+  } else if (voronoi->min_edge > largest_part * voronoi->size) {
+    add_fault(
+        reading, min_edge->place, "voronoi.min_edge",
+        fmt::format("{} is too long for polygons of {:.3g} m", shown(*min_edge), voronoi->size),
+        fmt::format("give at most {:.3g}", largest_part * voronoi->size));
+  }
+}
+
 /// Two hundredths of the spacing, since a strip so thin is an accident of the positions of joints,
 /// far below the spacing of a set; and the area of a square with sides twice as long.
 void complete_quality(const Value& root, Reading& reading) {
@@ -197,6 +213,7 @@ void complete_geometry(const Value& root, Reading& reading) {
   const Model& model = reading.model;
   check_walls(root, reading);
   complete_quality(root, reading);
+  complete_voronoi(root, reading);
   if (!model.domain || model.domain->outline.empty()) return;
   complete_snap(root, reading);
   const bool sized = !model.voronoi || model.voronoi->size > 0.0;

@@ -94,6 +94,7 @@ inline constexpr std::array network_keys{
 inline constexpr std::array voronoi_keys{
     Key{"size", at<&Voronoi::size>, number(D::length, above(0)), required, "Side of a square as large as the mean polygon."},
     Key{"smoothing", at<&Voronoi::smoothing>, whole(0, 100), initial, "Iterations that make the polygons more alike (Lloyd); 0: none."},
+    Key{"min_edge", at<&Voronoi::min_edge>, number(D::length, from(0)), otherwise("size / 5"), "Edges shorter than this become points, and thinner polygons join a neighbour; 0: none do."},
     Key{"joint", at<&Voronoi::joint>, joint, otherwise("domain.joint"), "Law of the polygons' edges."},
     Key{"region", at<&Voronoi::region>, polygon, otherwise("the whole domain"), "Polygons only inside this polygon, which is cut out."},
     Key{"seed", at<&Voronoi::seed>, whole(0, 9e15), initial, "Another seed, other polygons of the same kind."},
