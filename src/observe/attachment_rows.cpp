@@ -110,4 +110,35 @@ std::string bolts_rows(const Simulation& sim) {
   return csv.text();
 }
 
+std::string linings_rows(const Simulation& sim) {
+  const BlockSet& b = sim.scene->blocks;
+  const ZoneModel& model = sim.scene->zones;
+  const Zones& zones = sim.motion.zones;
+  Csv csv;
+  for (std::size_t i = 0; i < b.size(); ++i) {
+    if (!b.is_lining(i) || sim.motion.state.alive[i] == 0) continue;
+    const std::string_view name = b.name(i);
+    const std::string lining = name.empty() ? std::to_string(b.lining[i]) : std::string(name);
+    double distance = 0.0;
+    for (std::uint32_t p = model.pair_begin[i]; p < model.pair_begin[i + 1]; ++p) {
+      const std::uint32_t q = model.piece_of_pair[p];
+      const LiningPiece& piece = model.piece[q];
+      const BeamState& state = zones.piece[q];
+      const BeamCorners x = corners_of_piece(b, model, sim.motion.state, p);
+      for (const std::size_t end : {0u, 1u}) {
+        const Vec2 at = b.origin + 0.5 * (end == 0 ? x[0] + x[3] : x[1] + x[2]);
+        if (end == 1) distance += state.length;
+        csv.add(sim.motion.state.time).add(lining).add(int(p - model.pair_begin[i]));
+        csv.add(distance).add(at.x).add(at.y);
+        csv.add(0.0 - state.forces.axial).add(state.forces.moment[end]);
+        csv.add(state.forces.shear(state.length));
+        csv.add(utilisation(model.strength[piece.strength], state.forces.axial,
+                            state.forces.moment[end]));
+        csv.add(state.hinge[end]).end();
+      }
+    }
+  }
+  return csv.text();
+}
+
 }  // namespace edda

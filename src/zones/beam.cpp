@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "zones/koiter.hpp"
+
 namespace edda {
 namespace {
 
@@ -58,6 +60,102 @@ Stiffness stiffness_of(const BeamShape& s, double l) {
   return k;
 }
 
+/// dl, dtheta_1 and dtheta_2.
+using Stretch = std::array<double, 3>;
+Stretch stretch_from(const BeamForm& free, const BeamForm& now) {
+  return {now.length - free.length, now.turn[0] - free.turn[0], now.turn[1] - free.turn[1]};
+}
+
+BeamForces forces_of(const BeamShape& shape, double length, const Stretch& e) {
+  const double mean = shape.bending / length * (e[2] - e[1]),
+               of_shear = 0.25 * shape.shear * length * (e[1] + e[2]);
+  return {shape.axial / length * e[0], {mean - of_shear, mean + of_shear}};
+}
+
+constexpr double tolerated = 1e-10;  // of a strength
+
+bool exceeds(const SectionStrength& strength, const BeamForces& f) {
+  for (const SectionLimit& s : strength) {
+    for (const double moment : f.moment)
+      if (s.axial * f.axial + s.moment * std::abs(moment) > s.limit) return true;
+  }
+  return false;
+}
+
+/// Roots of the stiffnesses of dl, of (dtheta_2 - dtheta_1)/2^(1/2) and of their sum over 2^(1/2).
+/// With forces divided, and strains multiplied by them elasticity is the identity, and Koiter's
+/// return finds the nearest point.
+struct Scales {
+  double axial, bend, shear;
+};
+Scales scales_of(const BeamShape& shape, double length) {
+  return {std::sqrt(shape.axial / length), std::sqrt(2.0 * shape.bending / length),
+          std::sqrt(0.5 * shape.shear * length)};
+}
+
+/// The limit of the moment of section k of this sign, of normal length 1.
+YieldPlane scaled(const SectionLimit& s, const Scales& by, std::size_t k, double sign) {
+  const double half = std::sqrt(0.5) * sign * s.moment;
+  const Principal n{s.axial * by.axial, half * by.bend, (k == 0 ? -half : half) * by.shear};
+  const double size = std::sqrt(dot(n, n));
+  YieldPlane plane;
+  for (std::size_t c = 0; c < 3; ++c) plane.normal[c] = plane.flow[c] = n[c] / size;
+  plane.limit = s.limit / size;
+  return plane;
+}
+
+/// Returns a trial stress by those of the planes that it, or the return so far, exceeds most.
+ReturnedStress return_to_nearest(const Principal& trial, const std::vector<YieldPlane>& planes) {
+  constexpr IsotropicElasticity identity{0.0, 0.5};
+  double size = 0.0;
+  for (const YieldPlane& p : planes) size = std::max(size, std::abs(p.limit));
+  std::vector<YieldPlane> active;
+  ReturnedStress r;
+  r.stress = trial;
+  constexpr std::size_t most = 24;
+  while (active.size() < most) {
+    const auto beyond = [&](const YieldPlane& p) { return dot(p.normal, r.stress) - p.limit; };
+    const auto worst = std::max_element(
+        planes.begin(), planes.end(),
+        [&](const YieldPlane& a, const YieldPlane& b) { return beyond(a) < beyond(b); });
+    if (!(beyond(*worst) > tolerated * size)) break;
+    active.push_back(*worst);
+    r = return_to_planes(trial, identity, active, tolerated * size);
+  }
+  return r;
+}
+
+/// Brings the forces of a piece that is stretched by `trial` back to the strength.
+void flow(const BeamShape& shape, const SectionStrength& strength, const Stretch& trial,
+          const BeamForces& before, BeamState& state, BeamResult& result) {
+  const Scales by = scales_of(shape, state.length);
+  std::vector<YieldPlane> planes;
+  for (const SectionLimit& s : strength) {
+    for (const std::size_t k : {0u, 1u})
+      for (const double sign : {-1.0, 1.0}) planes.push_back(scaled(s, by, k, sign));
+  }
+  const double root = std::sqrt(0.5);
+  const ReturnedStress r =
+      return_to_nearest({by.axial * trial[0], by.bend * root * (trial[2] - trial[1]),
+                         by.shear * root * (trial[1] + trial[2])},
+                        planes);
+  const double bent = root * r.plastic[1] / by.bend, sheared = root * r.plastic[2] / by.shear;
+  const Stretch plastic{r.plastic[0] / by.axial, sheared - bent, sheared + bent};
+  state.free.length += plastic[0];
+  Stretch elastic = trial;
+  for (std::size_t k = 0; k < 3; ++k) elastic[k] -= plastic[k];
+  state.forces = forces_of(shape, state.length, elastic);
+  result.dissipated = 0.5 * (before.axial + state.forces.axial) * plastic[0];
+  for (std::size_t k = 0; k < 2; ++k) {
+    state.free.turn[k] += plastic[1 + k];
+    // A rotation of the section that opens the outer side.
+    const double turn = k == 0 ? -plastic[1] : plastic[2];
+    state.hinge[k] += turn;
+    result.dissipated += 0.5 * (before.moment[k] + state.forces.moment[k]) * turn;
+  }
+  result.yields = true;
+}
+
 }  // namespace
 
 BeamForm form_of(const BeamCorners& x) {
@@ -98,20 +196,55 @@ BeamShape beam_shape(const BeamSection& section, const BeamCorners& x, double ma
   return shape;
 }
 
-BeamResult evaluate_beam(const BeamShape& shape, const BeamState& state, const BeamCorners& x) {
-  const BeamForm now = form_of(x), &free = state.free;
-  const double l = free.length, stretched = now.length - l;
-  const std::array<double, 2> turned{now.turn[0] - free.turn[0], now.turn[1] - free.turn[1]};
-  const double mean = shape.bending / l * (turned[1] - turned[0]),
-               of_shear = 0.25 * shape.shear * l * (turned[0] + turned[1]);
+SectionStrength rectangle_strength(double compressive, double tensile, double area,
+                                   double thickness) {
+  constexpr int parts = 16;
+  SectionStrength strength;
+  for (int k = 0; k <= parts; ++k) {
+    const double x = k / double(parts), slope = 0.5 * thickness * (1.0 - 2.0 * x);
+    const double axial = area * (tensile * x - compressive * (1.0 - x)),
+                 moment = 0.5 * (compressive + tensile) * area * thickness * x * (1.0 - x);
+    strength.push_back({-slope, 1.0, moment - slope * axial});
+  }
+  return strength;
+}
+
+double utilisation(const SectionStrength& strength, double axial, double moment) {
+  double most = 0.0, largest = 0.0;
+  for (const SectionLimit& s : strength) largest = std::max(largest, s.limit);
+  for (const SectionLimit& s : strength) {
+    const double value = s.axial * axial + s.moment * std::abs(moment);
+    // Through the origin: whatever is on it is at the limit.
+    if (s.limit > tolerated * largest) {
+      most = std::max(most, value / s.limit);
+    } else if (value >= -tolerated * largest && moment != 0.0) {
+      most = std::max(most, 1.0);
+    }
+  }
+  return most;
+}
+
+BeamState beam_at_start(const BeamCorners& x) {
+  BeamState state;
+  state.free = form_of(x);
+  state.length = state.free.length;
+  return state;
+}
+
+BeamResult evaluate_beam(const BeamShape& shape, const SectionStrength& strength,
+                         const BeamCorners& x, BeamState& state) {
+  const BeamForm now = form_of(x);
+  const Stretch stretch = stretch_from(state.free, now);
   BeamResult r;
-  r.forces = {shape.axial / l * stretched, {mean - of_shear, mean + of_shear}};
-  std::array<double, measures> slope{r.forces.axial, -r.forces.moment[0], r.forces.moment[1], 0.0,
-                                     0.0};
-  r.stored = 0.5 * (r.forces.axial * stretched - r.forces.moment[0] * turned[0] +
-                    r.forces.moment[1] * turned[1]);
+  const BeamForces before = state.forces;
+  state.forces = forces_of(shape, state.length, stretch);
+  if (exceeds(strength, state.forces)) flow(shape, strength, stretch, before, state, r);
+  const Stretch elastic = stretch_from(state.free, now);
+  std::array<double, measures> slope{state.forces.axial, -state.forces.moment[0],
+                                     state.forces.moment[1], 0.0, 0.0};
+  for (std::size_t k = 0; k < elastic.size(); ++k) r.stored += 0.5 * slope[k] * elastic[k];
   for (std::size_t k = 0; k < 2; ++k) {
-    const double opened = now.height[k] - free.height[k];
+    const double opened = now.height[k] - state.free.height[k];
     slope[3 + k] = shape.across * opened;
     r.stored += 0.5 * slope[3 + k] * opened;
   }

@@ -9,10 +9,14 @@
 //       + T (dh_1^2 + dh_2^2)/2,   1/S = 1/(k G A) + l^2/(12 E I):
 // the curvature is constant, and S, with the residual bending flexibility (MacNeal 1978), makes the
 // piece exact for forces at its ends. T holds the sections together.
+//
+// Where N and M of a section reach what it can carry, it becomes a plastic hinge: l and theta_k of
+// the form without stress follow the flow that belongs to the strength.
 #pragma once
 
 #include <array>
 #include <cstddef>
+#include <vector>
 
 #include "base/vec2.hpp"
 
@@ -45,6 +49,22 @@ BeamShape beam_shape(const BeamSection& section, const BeamCorners& x, double ma
 /// Square of the highest frequency of a piece by itself, with `mass` at each corner, 1/s2.
 double highest_square(const BeamShape& shape, const BeamCorners& x, double mass);
 
+/// a N + b M <= d, of either sign of M.
+struct SectionLimit {
+  double axial = 0.0, moment = 0.0;  ///< a and b > 0
+  double limit = 0.0;                ///< d
+};
+/// What a section can carry; empty: anything. Of a rectangle of strengths f_c and f_t (rigid and
+/// plastic), of which the part x is in tension:
+///   N = f_t x A - f_c (1 - x) A,  M = (f_c + f_t) A t x (1 - x)/2,
+/// by its tangents.
+using SectionStrength = std::vector<SectionLimit>;
+/// compressive, tensile: f_c and f_t, Pa; area in m2, thickness t in m.
+SectionStrength rectangle_strength(double compressive, double tensile, double area,
+                                   double thickness);
+/// By what N and M would have to be divided to be on the surface; 1 on it.
+double utilisation(const SectionStrength& strength, double axial, double moment);
+
 /// Forces of its sections: N, positive in tension, and M, positive where the outer side is in
 /// tension.
 struct BeamForces {
@@ -56,15 +76,23 @@ struct BeamForces {
 /// What is remembered of a piece: the form without stress.
 struct BeamState {
   BeamForm free;
-  BeamForces forces;  ///< of the last evaluation
+  double length = 0.0;            ///< of it at first, m
+  std::array<double, 2> hinge{};  ///< plastic rotations of the ends, rad
+  BeamForces forces;              ///< of the last evaluation
 };
 
-/// Forces on its corners, N, and what is stored, J.
+/// Without stress at these places.
+BeamState beam_at_start(const BeamCorners& x);
+
+/// Forces on its corners, N, what is stored, and what its hinges have dissipated since its state
+/// before, by the mean of the forces then and now, J.
 struct BeamResult {
   std::array<Vec2, corners_of_beam> force{};
-  double stored = 0.0;
-  BeamForces forces;
+  double stored = 0.0, dissipated = 0.0;
+  bool yields = false;
 };
-BeamResult evaluate_beam(const BeamShape& shape, const BeamState& state, const BeamCorners& x);
+/// The state becomes that at x.
+BeamResult evaluate_beam(const BeamShape& shape, const SectionStrength& strength,
+                         const BeamCorners& x, BeamState& state);
 
 }  // namespace edda

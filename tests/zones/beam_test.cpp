@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <numbers>
@@ -30,7 +31,7 @@ struct Chain {
   explicit Chain(std::vector<Vec2> corners) : x(std::move(corners)) {
     for (std::size_t p = 0; 2 * p + 2 < x.size(); ++p) {
       shape.push_back(beam_shape(section, corners_of(p), mass));
-      state.push_back({form_of(corners_of(p)), {}});
+      state.push_back(beam_at_start(corners_of(p)));
     }
   }
   BeamCorners corners_of(std::size_t p) const {
@@ -39,7 +40,8 @@ struct Chain {
   std::vector<Vec2> forces() const {
     std::vector<Vec2> f(x.size());
     for (std::size_t p = 0; p < shape.size(); ++p) {
-      const BeamResult r = evaluate_beam(shape[p], state[p], corners_of(p));
+      BeamState now = state[p];
+      const BeamResult r = evaluate_beam(shape[p], {}, corners_of(p), now);
       const std::array<std::size_t, 4> at{2 * p, 2 * p + 2, 2 * p + 3, 2 * p + 1};
       for (std::size_t k = 0; k < 4; ++k) f[at[k]] += r.force[k];
     }
@@ -78,6 +80,11 @@ struct Chain {
       if (by.norm() < 1e-9) return;
     }
     ADD_FAILURE() << "no equilibrium";
+  }
+  BeamForces forces_in(std::size_t p) const {
+    BeamState now = state[p];
+    evaluate_beam(shape[p], {}, corners_of(p), now);
+    return now.forces;
   }
   Vec2 end() const { return 0.5 * (x[x.size() - 2] + x[x.size() - 1]); }
 };
@@ -124,7 +131,8 @@ BeamCorners moved(unsigned seed) {
 }
 BeamResult at(const BeamCorners& x) {
   const BeamCorners drawn{Vec2{0, 0}, Vec2{0.8, 0.1}, Vec2{0.75, 0.4}, Vec2{0, 0.3}};
-  return evaluate_beam(beam_shape(section, drawn, mass), {form_of(drawn), {}}, x);
+  BeamState state = beam_at_start(drawn);
+  return evaluate_beam(beam_shape(section, drawn, mass), {}, x, state);
 }
 
 TEST(Beam, ForcesAreTheGradientOfWhatIsStored) {
@@ -200,7 +208,7 @@ TEST(Beam, StraightCantileverIsExactWithAnyNumberOfPieces) {
     c.load([&](const auto& x) { return at_the_end(x, {0.0, load}); });
     EXPECT_NEAR(c.end().y, load * (std::pow(length, 3) / (3.0 * ei) + length / shear),
                 1e-6 * c.end().y);
-    const BeamForces of = evaluate_beam(c.shape[0], c.state[0], c.corners_of(0)).forces;
+    const BeamForces of = c.forces_in(0);
     EXPECT_NEAR(of.moment[0], load * length, 1e-5 * load * length);
     EXPECT_NEAR(of.shear(length / pieces), -load, 1e-5 * load);
     EXPECT_NEAR(of.axial, 0.0, 1e-4 * load);
@@ -218,7 +226,7 @@ TEST(Beam, QuarterCircleUnderARadialLoad) {
   c.load([&](const auto& x) { return at_the_end(x, {0.0, load}); });
   EXPECT_NEAR(c.end().y - before.y, exact, 1e-3 * exact);
   // Its clamped section: the moment of the load about it, and no thrust.
-  const BeamForces of = evaluate_beam(c.shape[0], c.state[0], c.corners_of(0)).forces;
+  const BeamForces of = c.forces_in(0);
   EXPECT_NEAR(of.moment[0], -load * radius, 2e-3 * load * radius);
 }
 
@@ -230,6 +238,73 @@ TEST(Beam, ACantileverRollsUp) {
   for (int n = 1; n <= 24; ++n)
     c.load([&](const auto& x) { return couple_at_the_end(x, couple * n / 24); });
   EXPECT_LT(norm(c.end()), 1e-6 * length);
+}
+
+/// What a rectangle can carry lies within its tangents, and not far.
+TEST(Beam, StrengthOfARectangle) {
+  constexpr double compressive = 30e6, tensile = 3e6, area = 0.3;
+  const SectionStrength s = rectangle_strength(compressive, tensile, area, thick);
+  EXPECT_NEAR(utilisation(s, -compressive * area, 0.0), 1.0, 1e-12);
+  EXPECT_NEAR(utilisation(s, tensile * area, 0.0), 1.0, 1e-12);
+  for (double x = 0.02; x < 1.0; x += 0.03) {
+    const double n = area * (tensile * x - compressive * (1.0 - x)),
+                 m = 0.5 * (compressive + tensile) * area * thick * x * (1.0 - x);
+    EXPECT_LE(utilisation(s, n, m), 1.0 + 1e-12);
+    EXPECT_GT(utilisation(s, n, m), 0.99);
+    EXPECT_NEAR(utilisation(s, n, -m), utilisation(s, n, m), 1e-12);
+  }
+  // Half in tension, half in compression: f A t/4.
+  EXPECT_NEAR(utilisation(rectangle_strength(2e8, 2e8, area, thick), 0.0, 2e8 * area * thick / 4),
+              1.0, 1e-12);
+}
+
+/// On any path forces stay within the strength, and what is put in is stored or dissipated.
+TEST(Beam, HingesKeepToTheStrengthAndDissipate) {
+  const BeamCorners drawn{Vec2{0, 0}, Vec2{0.8, 0}, Vec2{0.8, 0.3}, Vec2{0, 0.3}};
+  const BeamShape shape = beam_shape(section, drawn, mass);
+  const SectionStrength strength = rectangle_strength(30e6, 3e6, section.area, thick);
+  BeamState state = beam_at_start(drawn);
+  std::mt19937 rng(7);
+  std::uniform_real_distribution<double> any(-2e-3, 2e-3);
+  BeamCorners x = drawn, target = drawn;
+  BeamResult r = evaluate_beam(shape, strength, x, state);
+  double work = 0.0, dissipated = 0.0, most = 0.0;
+  for (int n = 0; n < 4000; ++n) {
+    if (n % 400 == 0)
+      for (std::size_t k = 0; k < 4; ++k) target[k] = drawn[k] + Vec2{any(rng), any(rng)};
+    const BeamCorners before = x;
+    const BeamResult last = r;
+    for (std::size_t k = 0; k < 4; ++k) x[k] += 0.01 * (target[k] - x[k]);
+    r = evaluate_beam(shape, strength, x, state);
+    for (std::size_t k = 0; k < 4; ++k)
+      work -= 0.5 * dot(last.force[k] + r.force[k], x[k] - before[k]);
+    EXPECT_GE(r.dissipated, -1e-6);
+    dissipated += r.dissipated;
+    for (const double m : state.forces.moment)
+      most = std::max(most, utilisation(strength, state.forces.axial, m));
+  }
+  EXPECT_LT(most, 1.0 + 1e-6);
+  EXPECT_GT(most, 1.0 - 1e-6);
+  EXPECT_GT(dissipated, 1e3);
+  EXPECT_NEAR(r.stored + dissipated, work, 2e-3 * work);
+}
+
+/// A cantilever of one piece under a growing moment at its end: M stays at M_p, the end turns.
+TEST(Beam, PlasticMoment) {
+  const BeamCorners drawn{Vec2{0, 0}, Vec2{0.8, 0}, Vec2{0.8, 0.3}, Vec2{0, 0.3}};
+  const BeamShape shape = beam_shape(section, drawn, mass);
+  constexpr double yield = 250e6;
+  const SectionStrength strength = rectangle_strength(yield, yield, section.area, thick);
+  const double plastic = yield * section.area * thick / 4.0;
+  BeamState state = beam_at_start(drawn);
+  for (int n = 0; n <= 100; ++n) {
+    BeamCorners x = drawn;
+    const Vec2 middle{0.8, 0.15};
+    for (const std::size_t k : {1u, 2u}) x[k] = middle + rotated(x[k] - middle, 1e-3 * n);
+    evaluate_beam(shape, strength, x, state);
+  }
+  EXPECT_NEAR(state.forces.moment[1], plastic, 1e-6 * plastic);
+  EXPECT_GT(state.hinge[1], 0.0);
 }
 
 }  // namespace

@@ -49,6 +49,9 @@ void complete_shakings(const Value& root, Reading& reading);
 /// are named.
 void complete_bolts(const Value& root, Reading& reading);
 
+/// As complete(), for [[lining]]: where it is and its section; methods that have none.
+void complete_linings(const Value& root, Reading& reading);
+
 /// As complete(), for [joints.NAME]: the keys that each type needs and those that it does not have;
 /// residual strength.
 void complete_joints(const Value& root, Reading& reading);
