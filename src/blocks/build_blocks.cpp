@@ -260,6 +260,13 @@ bool may_bend(const Model& model, const BlockPolygon& block) {
   return deformation_of(model, block) == BlockDeformation::corners;
 }
 
+StripSections sections_of(const BlockSet& b, std::size_t i) {
+  const Id first = b.vertex_begin[i], all = b.vertex_begin[i + 1] - first;
+  Id ring = 1;
+  for (Id v = b.next[first]; v != first; v = b.next[v]) ++ring;
+  return {ring < all ? ring : all / 2, ring < all};
+}
+
 BlockSet build_blocks(const Model& model, const PolygonSet& polygons) {
   BlockSet b;
   b.origin = polygons.origin;

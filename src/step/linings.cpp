@@ -3,7 +3,7 @@
 #include <optional>
 #include <span>
 
-#include "base/polygon.hpp"
+#include "blocks/build_blocks.hpp"
 #include "contacts/evaluate_face.hpp"
 #include "contacts/face_bonds.hpp"
 #include "cutting/linings.hpp"
@@ -65,14 +65,13 @@ std::vector<Vec2> filled(const std::vector<std::optional<Vec2>>& some, bool clos
 /// Where the mesh nodes of a lining are when it is put on the walls as they are now.
 std::vector<Vec2> nodes_on_walls(const Simulation& sim, std::size_t i) {
   constexpr double rounding = 1e-3;  // of the thickness
-  const BlockPolygon& polygon = sim.scene->polygons.blocks[i];
-  const StripSections s = sections_of(polygon);
-  const double thickness =
-      sim.scene->model.linings[static_cast<std::size_t>(polygon.lining)].drawn_thickness();
+  const BlockSet& b = sim.scene->blocks;
+  const StripSections s = sections_of(b, i);
+  const double thickness = 2.0 * b.inradius[i];
   std::vector<std::optional<Vec2>> moved;
   std::vector<Vec2> outer;
   for (std::uint32_t k = 0; k < s.count; ++k) {
-    outer.push_back(polygon.rings[0][k]);
+    outer.push_back(b.vertex(b.vertex_begin[i] + s.outer(k)));
     moved.push_back(displacement_of_walls(sim, outer.back(), rounding * thickness));
   }
   const std::vector<Vec2> by = filled(moved, s.closed);
@@ -144,6 +143,7 @@ void begin_blocks(Simulation& sim, const std::vector<Id>& blocks) {
   Motion& motion = sim.motion;
   std::vector<std::uint8_t> born(sim.scene->blocks.size(), 0);
   for (const Id i : blocks) born[i] = motion.state.alive[i] = 1;
+  sim.control.near_edges = NearEdges();  // those near each other without these blocks
   search(sim, next_reach(sim));
   change_faces(sim,
                [&](FaceSet& faces, FaceStates& states) { close_faces(sim, faces, states, born); });

@@ -48,14 +48,20 @@ Gradients gradients_of(const BeamCorners& x) {
   return g;
 }
 
+double curvature_of(const BeamForm& form) {
+  return (form.turn[1] - form.turn[0]) / form.length;
+}
+
 /// Second derivatives of U by the measures.
 using Stiffness = Eigen::Matrix<double, measures, measures>;
-Stiffness stiffness_of(const BeamShape& s, double l) {
-  Stiffness k = Stiffness::Zero();
-  k(0, 0) = s.axial / l;
-  const double bend = s.bending / l, shear = 0.25 * s.shear * l;
-  k(1, 1) = k(2, 2) = bend + shear;
-  k(1, 2) = k(2, 1) = shear - bend;
+Stiffness stiffness_of(const BeamShape& s, const BeamForm& form) {
+  const double l = form.length;
+  Eigen::Matrix<double, measures, 1> bend = Eigen::Matrix<double, measures, 1>::Zero(),
+                                     shear = bend;
+  bend.head(3) << -curvature_of(form), -1.0, 1.0;
+  shear.head(3) << 0.0, 0.5, 0.5;
+  Stiffness k = s.bending / l * bend * bend.transpose() + s.shear * l * shear * shear.transpose();
+  k(0, 0) += s.axial / l;
   k(3, 3) = k(4, 4) = s.across;
   return k;
 }
@@ -66,10 +72,11 @@ Stretch stretch_from(const BeamForm& free, const BeamForm& now) {
   return {now.length - free.length, now.turn[0] - free.turn[0], now.turn[1] - free.turn[1]};
 }
 
-BeamForces forces_of(const BeamShape& shape, double length, const Stretch& e) {
-  const double mean = shape.bending / length * (e[2] - e[1]),
-               of_shear = 0.25 * shape.shear * length * (e[1] + e[2]);
-  return {shape.axial / length * e[0], {mean - of_shear, mean + of_shear}};
+BeamForces forces_of(const BeamShape& shape, const BeamState& state, const Stretch& e) {
+  const double l = state.length, c = state.curvature;
+  const double mean = shape.bending / l * (e[2] - e[1] - c * e[0]),
+               of_shear = 0.25 * shape.shear * l * (e[1] + e[2]);
+  return {shape.axial / l * e[0] - c * mean, {mean - of_shear, mean + of_shear}};
 }
 
 constexpr double tolerated = 1e-10;  // of a strength
@@ -82,21 +89,22 @@ bool exceeds(const SectionStrength& strength, const BeamForces& f) {
   return false;
 }
 
-/// Roots of the stiffnesses of dl, of (dtheta_2 - dtheta_1)/2^(1/2) and of their sum over 2^(1/2).
+/// Roots of the stiffnesses of dl, of b and of dtheta_1 + dtheta_2, the last two over 2^(1/2); c.
 /// With forces divided, and strains multiplied by them elasticity is the identity, and Koiter's
 /// return finds the nearest point.
 struct Scales {
-  double axial, bend, shear;
+  double axial, bend, shear, curvature;
 };
-Scales scales_of(const BeamShape& shape, double length) {
-  return {std::sqrt(shape.axial / length), std::sqrt(2.0 * shape.bending / length),
-          std::sqrt(0.5 * shape.shear * length)};
+Scales scales_of(const BeamShape& shape, const BeamState& state) {
+  return {std::sqrt(shape.axial / state.length), std::sqrt(2.0 * shape.bending / state.length),
+          std::sqrt(0.5 * shape.shear * state.length), state.curvature};
 }
 
 /// The limit of the moment of section k of this sign, of normal length 1.
 YieldPlane scaled(const SectionLimit& s, const Scales& by, std::size_t k, double sign) {
-  const double half = std::sqrt(0.5) * sign * s.moment;
-  const Principal n{s.axial * by.axial, half * by.bend, (k == 0 ? -half : half) * by.shear};
+  const double root = std::sqrt(0.5), half = root * sign * s.moment;
+  const Principal n{s.axial * by.axial, (half - root * by.curvature * s.axial) * by.bend,
+                    (k == 0 ? -half : half) * by.shear};
   const double size = std::sqrt(dot(n, n));
   YieldPlane plane;
   for (std::size_t c = 0; c < 3; ++c) plane.normal[c] = plane.flow[c] = n[c] / size;
@@ -128,23 +136,25 @@ ReturnedStress return_to_nearest(const Principal& trial, const std::vector<Yield
 /// Brings the forces of a piece that is stretched by `trial` back to the strength.
 void flow(const BeamShape& shape, const SectionStrength& strength, const Stretch& trial,
           const BeamForces& before, BeamState& state, BeamResult& result) {
-  const Scales by = scales_of(shape, state.length);
+  const Scales by = scales_of(shape, state);
   std::vector<YieldPlane> planes;
   for (const SectionLimit& s : strength) {
     for (const std::size_t k : {0u, 1u})
       for (const double sign : {-1.0, 1.0}) planes.push_back(scaled(s, by, k, sign));
   }
   const double root = std::sqrt(0.5);
-  const ReturnedStress r =
-      return_to_nearest({by.axial * trial[0], by.bend * root * (trial[2] - trial[1]),
-                         by.shear * root * (trial[1] + trial[2])},
-                        planes);
-  const double bent = root * r.plastic[1] / by.bend, sheared = root * r.plastic[2] / by.shear;
-  const Stretch plastic{r.plastic[0] / by.axial, sheared - bent, sheared + bent};
+  const ReturnedStress r = return_to_nearest(
+      {by.axial * trial[0], by.bend * root * (trial[2] - trial[1] - by.curvature * trial[0]),
+       by.shear * root * (trial[1] + trial[2])},
+      planes);
+  const double longer = r.plastic[0] / by.axial,
+               bent = root * r.plastic[1] / by.bend + 0.5 * by.curvature * longer,
+               sheared = root * r.plastic[2] / by.shear;
+  const Stretch plastic{longer, sheared - bent, sheared + bent};
   state.free.length += plastic[0];
   Stretch elastic = trial;
   for (std::size_t k = 0; k < 3; ++k) elastic[k] -= plastic[k];
-  state.forces = forces_of(shape, state.length, elastic);
+  state.forces = forces_of(shape, state, elastic);
   result.dissipated = 0.5 * (before.axial + state.forces.axial) * plastic[0];
   for (std::size_t k = 0; k < 2; ++k) {
     state.free.turn[k] += plastic[1 + k];
@@ -179,7 +189,7 @@ double highest_square(const BeamShape& shape, const BeamCorners& x, double mass)
     }
   }
   const Eigen::Matrix<double, 2 * corners_of_beam, 2 * corners_of_beam> k =
-      b.transpose() * stiffness_of(shape, form_of(x).length) * b;
+      b.transpose() * stiffness_of(shape, form_of(x)) * b;
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(k, Eigen::EigenvaluesOnly);
   return solver.eigenvalues().maxCoeff() / mass;
 }
@@ -228,6 +238,7 @@ BeamState beam_at_start(const BeamCorners& x) {
   BeamState state;
   state.free = form_of(x);
   state.length = state.free.length;
+  state.curvature = curvature_of(state.free);
   return state;
 }
 
@@ -237,7 +248,7 @@ BeamResult evaluate_beam(const BeamShape& shape, const SectionStrength& strength
   const Stretch stretch = stretch_from(state.free, now);
   BeamResult r;
   const BeamForces before = state.forces;
-  state.forces = forces_of(shape, state.length, stretch);
+  state.forces = forces_of(shape, state, stretch);
   if (exceeds(strength, state.forces)) flow(shape, strength, stretch, before, state, r);
   const Stretch elastic = stretch_from(state.free, now);
   std::array<double, measures> slope{state.forces.axial, -state.forces.moment[0],

@@ -5,10 +5,12 @@
 // chord c between the middles of both sections and the directors d_k = inner - outer there are
 //   l = |c|,  theta_k: angle of d_k from perp(c),  h_k = |d_k|,
 // which no motion of the whole changes. With what they differ by from the form without stress,
-//   U = EA dl^2/(2 l) + EI (dtheta_2 - dtheta_1)^2/(2 l) + S l ((dtheta_1 + dtheta_2)/2)^2/2
-//       + T (dh_1^2 + dh_2^2)/2,   1/S = 1/(k G A) + l^2/(12 E I):
-// the curvature is constant, and S, with the residual bending flexibility (MacNeal 1978), makes the
-// piece exact for forces at its ends. T holds the sections together.
+//   U = EA dl^2/(2 l) + EI b^2/(2 l) + S l ((dtheta_1 + dtheta_2)/2)^2/2
+//       + T (dh_1^2 + dh_2^2)/2,
+//   b = dtheta_2 - dtheta_1 - c dl,   1/S = 1/(k G A) + l^2/(12 E I):
+// the curvature is constant, c = (theta_2 - theta_1)/l without stress, so that a ring that only
+// grows loses curvature (Winkler), and S, with the residual bending flexibility (MacNeal 1978),
+// makes the piece exact for forces at its ends. T holds the sections together.
 //
 // Where N and M of a section reach what it can carry, it becomes a plastic hinge: l and theta_k of
 // the form without stress follow the flow that belongs to the strength.
@@ -76,9 +78,9 @@ struct BeamForces {
 /// What is remembered of a piece: the form without stress.
 struct BeamState {
   BeamForm free;
-  double length = 0.0;            ///< of it at first, m
-  std::array<double, 2> hinge{};  ///< plastic rotations of the ends, rad
-  BeamForces forces;              ///< of the last evaluation
+  double length = 0.0, curvature = 0.0;  ///< l and c at first, m and 1/m
+  std::array<double, 2> hinge{};         ///< plastic rotations of the ends, rad
+  BeamForces forces;                     ///< of the last evaluation
 };
 
 /// Without stress at these places.
