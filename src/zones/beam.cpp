@@ -107,7 +107,7 @@ YieldPlane scaled(const SectionLimit& s, const Scales& by, std::size_t k, double
                     (k == 0 ? -half : half) * by.shear};
   const double size = std::sqrt(dot(n, n));
   YieldPlane plane;
-  for (std::size_t c = 0; c < 3; ++c) plane.normal[c] = plane.flow[c] = n[c] / size;
+  for (std::size_t c = 0; c < n.size(); ++c) plane.normal[c] = plane.flow[c] = n[c] / size;
   plane.limit = s.limit / size;
   return plane;
 }
@@ -153,7 +153,7 @@ void flow(const BeamShape& shape, const SectionStrength& strength, const Stretch
   const Stretch plastic{longer, sheared - bent, sheared + bent};
   state.free.length += plastic[0];
   Stretch elastic = trial;
-  for (std::size_t k = 0; k < 3; ++k) elastic[k] -= plastic[k];
+  for (std::size_t k = 0; k < elastic.size(); ++k) elastic[k] -= plastic[k];
   state.forces = forces_of(shape, state, elastic);
   result.dissipated = 0.5 * (before.axial + state.forces.axial) * plastic[0];
   for (std::size_t k = 0; k < 2; ++k) {

@@ -352,6 +352,7 @@ void complete(const Value& root, Reading& reading) {
   complete_geometry(root, reading);
   complete_loads(root, reading);
   complete_stages(root, reading);
+  check_first_linings(root, reading);
   check_solver(root, reading);
   complete_fos(root, reading);
   complete_points(root, reading);

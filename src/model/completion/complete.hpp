@@ -62,6 +62,9 @@ void complete_fos(const Value& root, Reading& reading);
 /// As complete(), for contact.model = "points": what the paper's contacts do not have is refused.
 void complete_points(const Value& root, Reading& reading);
 
+/// That linings which are there from the start lie on walls that are. After complete_stages().
+void check_first_linings(const Value& root, Reading& reading);
+
 /// As complete(), for [[stage]]: defaults of damping and masses, names, sum of durations.
 void complete_stages(const Value& root, Reading& reading);
 

@@ -33,10 +33,6 @@ void check_section(const Value* node, const Lining& lining, Reading& reading) {
     add_fault(reading, node->place, path + ".thickness", "is missing",
               "give one such as thickness = \"20 cm\", or area, inertia and spacing of steel sets");
   }
-  if (!area && given(node, "spacing")) {
-    add_fault(reading, find(node, "spacing")->place, path + ".spacing",
-              "belongs to steel sets, which have area and inertia", "leave it out");
-  }
 }
 
 /// A layer on a lining that comes before it in the file.

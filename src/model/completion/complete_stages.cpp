@@ -120,25 +120,6 @@ void complete_excavation(const Value* own, Stage& stage, std::map<std::string, d
   }
 }
 
-/// Bolts that a stage installs, each once.
-void check_install(const Value* own, const Stage& stage, std::set<std::string>& installed,
-                   Reading& reading) {
-  std::vector<std::string_view> known = names_in(reading.model.bolts);
-  for (const std::string_view name : names_in(reading.model.bolt_patterns)) known.push_back(name);
-  for (const std::string_view name : names_in(reading.model.linings)) known.push_back(name);
-  for (std::size_t q = 0; q < stage.install.size(); ++q) {
-    const std::string& name = stage.install[q];
-    const Value& list = *find(own, "install");
-    const std::string path = fmt::format("{}.install[{}]", stage.where.key, q);
-    if (std::find(known.begin(), known.end(), name) == known.end()) {
-      names_nothing(reading, list, path, name, "bolt, pattern of bolts or lining", known);
-    } else if (!installed.insert(name).second) {
-      add_fault(reading, list.place, path, '"' + name + "\" has been installed before",
-                "install each once");
-    }
-  }
-}
-
 /// Whether the rock is there on which a lining lies.
 const Opening* unexcavated(const Model& model, const Lining& lining,
                            const std::map<std::string, double>& excavated) {
@@ -169,18 +150,23 @@ void check_linings_of(const Stage& stage, const std::map<std::string, double>& e
   }
 }
 
-void check_first_linings(const Value& root, Reading& reading) {
-  const Model& model = reading.model;
-  for (std::size_t q = 0; q < model.linings.size(); ++q) {
-    const Lining& lining = model.linings[q];
-    const Value* node = element(root, "lining", q);
-    if (!is_table(node) || (!lining.name.empty() && !installed_at_first(model, lining.name)))
-      continue;
-    const Opening* opening = unexcavated(model, lining, {});
-    if (opening == nullptr) continue;
-    add_fault(reading, node->place, lining.where.key,
-              "lies inside \"" + opening->name + "\", which is not excavated at the start",
-              "name it in install of the stage that excavates the opening, or of a later one");
+/// Bolts and linings that a stage installs, each once.
+void check_install(const Value* own, const Stage& stage, std::set<std::string>& installed,
+                   const std::map<std::string, double>& excavated, Reading& reading) {
+  check_linings_of(stage, excavated, own, reading);
+  std::vector<std::string_view> known = names_in(reading.model.bolts);
+  for (const std::string_view name : names_in(reading.model.bolt_patterns)) known.push_back(name);
+  for (const std::string_view name : names_in(reading.model.linings)) known.push_back(name);
+  for (std::size_t q = 0; q < stage.install.size(); ++q) {
+    const std::string& name = stage.install[q];
+    const Value& list = *find(own, "install");
+    const std::string path = fmt::format("{}.install[{}]", stage.where.key, q);
+    if (std::find(known.begin(), known.end(), name) == known.end()) {
+      names_nothing(reading, list, path, name, "bolt, pattern of bolts or lining", known);
+    } else if (!installed.insert(name).second) {
+      add_fault(reading, list.place, path, '"' + name + "\" has been installed before",
+                "install each once");
+    }
   }
 }
 
@@ -363,8 +349,7 @@ void complete_stages(const Value& root, Reading& reading) {
     check_ramp_damping(own, stage, reading);
     complete_masses(own, solver, stage, reading);
     complete_excavation(own, stage, let_go, reading);
-    check_install(own, stage, installed, reading);
-    check_linings_of(stage, let_go, own, reading);
+    check_install(own, stage, installed, let_go, reading);
     check_switches(own, stage, acting, known, reading);
     check_acts(own, stage, acting, reading);
     sum += stage.longest();
@@ -385,13 +370,27 @@ void complete_stages(const Value& root, Reading& reading) {
                           reading);
     }
   }
-  check_first_linings(root, reading);
   constexpr double same = 1e-9;
   if (duration != nullptr && all_given && std::abs(solver.duration - sum) > same * sum) {
     add_fault(reading, duration->place, "solver.duration",
               fmt::format("is not the {:.6g} s of the stages together", sum), "leave it out");
   }
   solver.duration = sum;
+}
+
+void check_first_linings(const Value& root, Reading& reading) {
+  const Model& model = reading.model;
+  for (std::size_t q = 0; q < model.linings.size(); ++q) {
+    const Lining& lining = model.linings[q];
+    const Value* node = element(root, "lining", q);
+    if (!is_table(node) || (!lining.name.empty() && !installed_at_first(model, lining.name)))
+      continue;
+    const Opening* opening = unexcavated(model, lining, {});
+    if (opening == nullptr) continue;
+    add_fault(reading, node->place, lining.where.key,
+              "lies inside \"" + opening->name + "\", which is not excavated at the start",
+              "name it in install of the stage that excavates the opening, or of a later one");
+  }
 }
 
 }  // namespace edda
