@@ -132,12 +132,6 @@ void place_blocks(Simulation& sim) {
   Motion& motion = sim.motion;
   const std::size_t nb = blocks.size(), nv = blocks.vertex_count();
   motion.state = initial_state(blocks, sim.scene->polygons);
-  for (std::size_t i = 0; i < nb; ++i) {
-    if (!blocks.is_lining(i)) continue;
-    const std::string& name =
-        sim.scene->model.linings[static_cast<std::size_t>(blocks.lining[i])].name;
-    motion.state.alive[i] = name.empty() || installed_at_first(sim.scene->model, name) ? 1 : 0;
-  }
   motion.forces = motion.on_contacts = zero_vectors(blocks);
   motion.zones = zones_at_start(sim.scene->zones, sim.scene->model, blocks, motion.state,
                                 water_in_pores(sim), motion.laws.rock_divided_by());
@@ -149,6 +143,13 @@ void place_blocks(Simulation& sim) {
   place_all(sim);
   pose.x2 = pose.x1 = pose.x;
   pose.y2 = pose.y1 = pose.y;
+  // Those that a stage installs are not there yet.
+  for (std::size_t i = 0; i < nb; ++i) {
+    if (!blocks.is_lining(i)) continue;
+    const std::string& name =
+        sim.scene->model.linings[static_cast<std::size_t>(blocks.lining[i])].name;
+    motion.state.alive[i] = name.empty() || installed_at_first(sim.scene->model, name) ? 1 : 0;
+  }
 }
 
 const Stepper& stepper_of(const Model& model) {

@@ -364,7 +364,7 @@ void expect_every_stage_key(const Model& m) {
   EXPECT_EQ(m.stages[0].falling, FallingBlocks::wait);
   EXPECT_EQ(m.stages[0].masses, StageMasses::as_given) << "the model gives a time step";
   EXPECT_EQ(m.stages[0].deactivate, std::vector<std::string>{"wet"});
-  EXPECT_EQ(m.stages[1].install, std::vector<std::string>{"round"});
+  EXPECT_EQ(m.stages[1].install, (std::vector<std::string>{"round", "shell", "second"}));
   EXPECT_EQ(m.stages[1].activate, (std::vector<std::string>{"axle", "wet"}));
   EXPECT_EQ(m.stages[1].joints, StageJoints::as_given);
   EXPECT_EQ(m.stages[1].falling, FallingBlocks::report);

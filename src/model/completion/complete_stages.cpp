@@ -127,8 +127,13 @@ const Opening* unexcavated(const Model& model, const Lining& lining,
     if (&below == &lining) break;
     if (!lining.on.empty() && below.name == lining.on) return unexcavated(model, below, excavated);
   }
+  const auto excavates = [&](const Stage& stage) {
+    return std::find(stage.excavate.begin(), stage.excavate.end(), lining.opening) !=
+           stage.excavate.end();
+  };
   for (const Opening& o : model.openings) {
-    if (!o.name.empty() && o.name == lining.opening && o.staged && !excavated.contains(o.name))
+    if (!o.name.empty() && o.name == lining.opening && !excavated.contains(o.name) &&
+        std::any_of(model.stages.begin(), model.stages.end(), excavates))
       return &o;
   }
   return nullptr;
