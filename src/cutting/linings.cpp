@@ -194,7 +194,7 @@ Faults add_linings(const Model& model, PolygonSet& polygons) {
     Path path = path_of(model, polygons, lining);
     if (path.points.empty()) continue;
     const double thickness = lining.drawn_thickness();
-    path = divided(path, lining.size.value_or(std::max(2.0 * thickness, path.length() / 64.0)));
+    path = divided(path, lining.size.value_or(std::max(2.0 * thickness, path.length() / 32.0)));
     std::vector<Vec2> inner = inner_side(path.points, path.closed, thickness);
     if (!is_whole(path, inner)) {
       faults.push_back({lining.where, "is too thick for its corners",

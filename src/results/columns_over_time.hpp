@@ -139,7 +139,7 @@ constexpr std::array linings{
     C{"thrust", "N", "Thrust of the thickness of the model, positive in compression."},
     C{"moment", "N m",
       "Moment of the thickness of the model, positive where it puts the side at the wall in "
-      "tension."},
+      "tension; the mean of the two pieces that meet in the section."},
     C{"shear", "N", "Shear force of the thickness of the model: slope of the moment."},
     C{"utilisation", "1",
       "By what thrust and moment would have to be divided to be at the strength of the section; 0 "

@@ -155,8 +155,8 @@ TEST(BadModel, Linings) {
                "lining.0.plastic_moment", "of steel sets"},
            Bad{first + "[[lining]]\non = \"b\"\nthickness = 0.2\n", 47, "lining.1.on",
                "no lining before it is called"},
-           Bad{first + "[[stage]]\nuntil = \"equilibrium\"\nexcavate = [\"hole\"]\n", 42,
-               "lining.a", "which is not excavated at the start"},
+           Bad{first + "[[stage]]\nduration = 0.1\nexcavate = [\"hole\"]\n", 42, "lining.a",
+               "which is not excavated at the start"},
            Bad{first + "[[stage]]\nduration = 0.05\ninstall = [\"a\"]\n[[stage]]\nduration = 0.05\n"
                        "excavate = [\"hole\"]\n",
                48, "stage.0.install", "which has not been excavated yet"},

@@ -248,7 +248,7 @@ constexpr std::array lining_keys{
     Key{"compressive_strength", at<&Lining::compressive_strength>, number(D::stress, above(0)), otherwise("none: the lining stays elastic"), "Compressive strength, or the yield stress of steel. Where thrust and moment of a section reach what it can carry, it becomes a plastic hinge."},
     Key{"tensile_strength", at<&Lining::tensile_strength>, number(D::stress, from(0)), otherwise("0; of steel sets compressive_strength"), "Tensile strength."},
     Key{"plastic_moment", at<&Lining::plastic_moment>, number(D::moment, above(0)), otherwise("that of a solid section of the same area and inertia"), "Plastic moment of a steel set without thrust."},
-    Key{"size", at<&Lining::size>, number_or("auto", D::length, above(0)), otherwise("\"auto\": a 64th of the length of the lining, or twice its thickness if that is more"), "Length of its pieces, at most."},
+    Key{"size", at<&Lining::size>, number_or("auto", D::length, above(0)), otherwise("\"auto\": a 32nd of the length of the lining, or twice its thickness if that is more"), "Length of its pieces, at most. Straight parts of an outline that stands for a curve are best one piece each: where they are divided, the lining bends as the polygon that is drawn."},
     Key{"interface", at<&Lining::interface>, joint, otherwise("that of the wall, or contact.joint"), "Law of the faces between the lining and what it touches: stiffness, friction, adhesion (cohesion and tensile strength)."},
 };
 
