@@ -1,5 +1,5 @@
 // Linings against closed-form solutions: beams, their vibration, and a ring under pressure:
-// validation.md rows 79 and 80.
+// validation.md rows 79 to 81.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -143,6 +143,37 @@ TEST(Lining, RingUnderPressure) {
   expect_relative({79, "ring", "thrust", "N"}, -forces(sim, 5).axial, pressure * radius, 2e-3);
   expect_relative({79, "ring", "decrease of the radius", "m"}, -middle(sim, 0).x,
                   pressure * radius * mean / axial, 4e-3);
+}
+
+/// A beam on two supports under a force at its middle becomes a mechanism at P = 4 M_p/L, with M_p
+/// = f t^2/4: ramped in steps of half a per cent.
+TEST(Lining, ThreePointCollapse) {
+  constexpr double length = 4.0, yield = 20e6, collapse = yield * thick * thick / length;
+  const std::string support = "[[boundary]]\ntype = 'roller'\nstiffness = 1e10\nalong = ";
+  const std::string model =
+      concrete(lining("[[0, -0.15], [4, -0.15]]",
+                      "size = 0.5\ncompressive_strength = 20e6\ntensile_strength = 20e6\n") +
+               support + "[[-0.05, -0.15], [0.05, -0.15]]\n" + support +
+               "[[3.95, -0.15], [4.05, -0.15]]\n[[load]]\nname = 'press'\npoint = [2, 0]\n"
+               "force = [0, -1]\n[[stage]]\nuntil = 'collapse'\n"
+               "ramp = { 'load:press' = [" +
+               number(0.97 * collapse) + ", " + number(1.03 * collapse) +
+               "], hold = 'equilibrium', steps = 12 }\n");
+  Result<Model> read = read_model_text(model, EDDA_SOURCE_DIR "/scene.toml", {});
+  ASSERT_TRUE(read.ok()) << to_string(read.faults().front());
+  PreparedRun ready = prepare_run(std::move(read.value())).value();
+  const Result<Outcome> outcome = run_model(ready, RunOptions{});
+  ASSERT_TRUE(outcome.ok());
+  // "... holds at load:press = 447750 and fails at load:press = 450000: ..."
+  const std::string& text = outcome.value().message;
+  const std::size_t at = text.find("fails at load:press = ");
+  ASSERT_NE(at, std::string::npos) << text;
+  expect_relative({81, "", "load that fails", "N"}, std::stod(text.substr(at + 22)), collapse,
+                  1e-2);
+  const BeamForces& middle_piece = forces(ready.sim, 3);
+  expect_relative({81, "", "moment of the hinge", "N m"}, middle_piece.moment[1],
+                  0.25 * yield * thick * thick, 1e-3);
+  EXPECT_GT(ready.sim.motion.zones.piece[3].hinge[1], 1e-3);
 }
 
 }  // namespace
