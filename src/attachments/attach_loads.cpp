@@ -151,7 +151,7 @@ void wet_pores(const Model& model, const BlockSet& b, const Table& table, double
                std::vector<WetZone>& wet) {
   const Meshes& m = b.meshes;
   for (std::size_t i = 0; m.any() && i < b.size(); ++i) {
-    if (b.material[i] == none) continue;
+    if (b.material[i] == none || b.is_lining(i)) continue;
     if (b.fixed[i] || !model.materials[static_cast<std::size_t>(b.material[i])].pore_pressure)
       continue;
     for (std::uint32_t z = m.zone_begin[i]; z < m.zone_begin[i + 1]; ++z) {

@@ -64,7 +64,8 @@ std::vector<Part> free_parts(const std::vector<OnLine>& all, const OnLine& one, 
                              double snap) {
   std::vector<Part> covered;
   for (const OnLine& other : all) {
-    if (other.along != one.along && b.vertex_block[other.edge] != b.vertex_block[one.edge])
+    if (other.along != one.along && b.vertex_block[other.edge] != b.vertex_block[one.edge] &&
+        !b.is_lining(b.vertex_block[other.edge]))
       covered.push_back({other.low, other.high});
   }
   std::vector<Part> parts;

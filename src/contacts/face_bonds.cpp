@@ -54,10 +54,13 @@ void fit(FaceSet& c, FaceStates& states, const BlockSet& b, const Face& face, st
 }  // namespace
 
 void bond_faces(FaceSet& c, FaceStates& states, const BlockSet& b, const Pose& pose,
-                const LawTable& laws) {
+                const LawTable& laws, const std::vector<std::uint8_t>* of_blocks) {
   bool changes = false;
   for (std::size_t k = 0; k < c.size(); ++k) {
     const Id e = c.edge[k], f = c.facing[k];
+    if (of_blocks != nullptr && (*of_blocks)[b.vertex_block[e]] == 0 &&
+        (*of_blocks)[b.vertex_block[f]] == 0)
+      continue;
     const std::uint16_t drawn =
         laws.resolve(b.edge_joint[e], b.edge_joint[f], b.material[b.vertex_block[e]],
                      b.material[b.vertex_block[f]]);

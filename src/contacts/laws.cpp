@@ -73,6 +73,10 @@ LawTable build_laws(const Model& model) {
     table.any_changes = table.any_changes || table.rows.back().changes;
     table.any_softens = table.any_softens || table.rows.back().softens;
   }
+  for (const Lining& lining : model.linings) {
+    if (lining.interface != none)
+      table.rows[static_cast<std::size_t>(lining.interface)].interface = true;
+  }
   std::vector<std::uint16_t> order(table.rows.size());
   std::iota(order.begin(), order.end(), std::uint16_t{0});
   auto key = [&](std::uint16_t r) {
@@ -148,6 +152,7 @@ std::uint16_t LawTable::resolve(Index edge, Index facing) const {
   if (edge == none) return static_cast<std::uint16_t>(facing);
   if (facing == none || facing == edge) return static_cast<std::uint16_t>(edge);
   const auto a = static_cast<std::uint16_t>(edge), b = static_cast<std::uint16_t>(facing);
+  if (rows[a].interface != rows[b].interface) return rows[a].interface ? a : b;
   return rank[a] < rank[b] ? a : b;
 }
 

@@ -17,6 +17,7 @@ struct Law {
   double residual_friction, residual_cohesion, residual_tension;
   double kn, ks;  ///< each 0: the default of [contact] applies
   bool glued;
+  bool interface = false;  ///< a lining names it for its faces, whatever the law of the wall
   // Dashpots and penalty of its own, where the law gives a restitution (step/restitution.hpp).
   bool dashpots = false;
   double damping = 0.0, shear_damping = 0.0;  ///< fractions of critical
@@ -88,8 +89,8 @@ struct LawTable {
                             Index facing_material) const;
 
   /// Law of a face (theory, section 4.7): that of the edge that names one; else contact.joint.
-  /// Where both name one and they differ, the one of lower friction angle, then cohesion, then
-  /// tension, then name.
+  /// Where both name one and they differ, that of a lining, else the one of lower friction angle,
+  /// then cohesion, then tension, then name.
   std::uint16_t resolve(Index edge, Index facing) const;
 
   /// k and ks of a face times the thickness, N/m per m of overlap: those of the joint, or, for a

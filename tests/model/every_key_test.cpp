@@ -258,6 +258,33 @@ void expect_every_boundary_key(const Model& m) {
   EXPECT_EQ(m.shakings[1].enters, 2);
 }
 
+void expect_every_lining_key(const Model& m) {
+  ASSERT_EQ(m.linings.size(), 3U);
+  const Lining& shell = m.linings[0];
+  EXPECT_EQ(shell.name, "shell");
+  EXPECT_EQ(shell.opening, "cavern");
+  EXPECT_EQ(shell.from_angle, -10.0);
+  EXPECT_EQ(shell.to_angle, 190.0);
+  EXPECT_EQ(m.materials[static_cast<std::size_t>(shell.material)].name, "rock");
+  EXPECT_EQ(shell.thickness, 0.15);
+  EXPECT_EQ(shell.drawn_thickness(), 0.15);
+  EXPECT_EQ(shell.solidity(), 1.0);
+  EXPECT_EQ(shell.compressive_strength, 20e6);
+  EXPECT_EQ(shell.tensile_strength, 2e6);
+  EXPECT_EQ(shell.size, 0.4);
+  EXPECT_EQ(m.joints[static_cast<std::size_t>(shell.interface)].name, "rough");
+  const Lining& sets = m.linings[1];
+  EXPECT_EQ(sets.on, "shell");
+  EXPECT_DOUBLE_EQ(*sets.area, 40e-4);
+  EXPECT_DOUBLE_EQ(*sets.inertia, 573e-8);
+  EXPECT_EQ(sets.spacing, 1.2);
+  EXPECT_EQ(sets.plastic_moment, 30e3);
+  // The solid section of the same area and inertia, over the spacing of the sets.
+  EXPECT_DOUBLE_EQ(sets.drawn_thickness(), std::sqrt(12.0 * 573e-8 / 40e-4));
+  EXPECT_DOUBLE_EQ(sets.solidity() * sets.drawn_thickness(), 40e-4 / 1.2);
+  EXPECT_EQ(m.linings[2].along, (std::vector<Vec2>{{0, 0}, {5, 0}, {5, 0.5}}));
+}
+
 void expect_every_bolt_key(const Model& m) {
   ASSERT_EQ(m.bolts.size(), 1U);
   const Bolt& bolt = m.bolts[0];
@@ -350,7 +377,7 @@ void expect_every_stage_key(const Model& m) {
   EXPECT_EQ(m.stages[0].falling, FallingBlocks::wait);
   EXPECT_EQ(m.stages[0].masses, StageMasses::as_given) << "the model gives a time step";
   EXPECT_EQ(m.stages[0].deactivate, std::vector<std::string>{"wet"});
-  EXPECT_EQ(m.stages[1].install, std::vector<std::string>{"round"});
+  EXPECT_EQ(m.stages[1].install, (std::vector<std::string>{"round", "shell", "second"}));
   EXPECT_EQ(m.stages[1].activate, (std::vector<std::string>{"axle", "wet"}));
   EXPECT_EQ(m.stages[1].joints, StageJoints::as_given);
   EXPECT_EQ(m.stages[1].falling, FallingBlocks::report);
@@ -392,6 +419,7 @@ void expect_every_solver_key(const Model& m) {
 void expect_every_run_key(const Model& m) {
   expect_every_boundary_key(m);
   expect_every_bolt_key(m);
+  expect_every_lining_key(m);
   expect_every_load_key(m);
   expect_every_stage_key(m);
   expect_every_solver_key(m);

@@ -61,7 +61,7 @@ TEST(WriteModel, ImplicitMethodComesBack) {
   const std::size_t wave = text.find("[[shaking]]\nacceleration");
   text.erase(wave, text.find("[[monitor]]") - wave);
   text.erase(text.find("restitution = 0.4\n"), 18);
-  const std::string install = "install = [\"round\"]\n";
+  const std::string install = "install = [\"round\", \"shell\", \"second\"]\n";
   text.erase(text.find(install), install.size());
   const std::size_t change = text.find("change = ");
   text.erase(change, text.find('\n', change) + 1 - change);
