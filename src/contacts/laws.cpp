@@ -119,10 +119,12 @@ double of_penalty(double at_end, double over_young, const FaceSides& sides) {
 }  // namespace
 
 FaceSides sides_of(const BlockSet& b, Id edge, Id facing) {
-  const bool edge_fixed = b.fixed[b.vertex_block[edge]] != 0,
-             facing_fixed = b.fixed[b.vertex_block[facing]] != 0;
-  const double of_edge = b.compliance[facing_fixed || !edge_fixed ? edge : facing],
-               of_facing = b.compliance[edge_fixed || !facing_fixed ? facing : edge];
+  const auto counts = [&](Id e) {
+    const Id i = b.vertex_block[e];
+    return b.fixed[i] == 0 && !b.is_lining(i);
+  };
+  const double of_edge = b.compliance[counts(edge) || !counts(facing) ? edge : facing],
+               of_facing = b.compliance[counts(facing) || !counts(edge) ? facing : edge];
   return {std::min(b.edge_length[edge], b.edge_length[facing]),
           std::min(0.5 * (of_edge + of_facing), most_of_smaller * std::min(of_edge, of_facing))};
 }

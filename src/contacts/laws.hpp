@@ -49,10 +49,11 @@ inline bool may_weaken(const Law& law) {
 
 /// The two edges of a face, as far as its penalty stiffness depends on them.
 struct FaceSides {
-  double shorter;     ///< length of the shorter one, m
-  double compliance;  ///< mean of BlockSet::compliance of the two, where a fixed block counts as
-                      ///< the other, but four times the smaller one at most, so that a small block
-                      ///< between large ones does not sink into them, m/Pa
+  double shorter;  ///< length of the shorter one, m
+  double
+      compliance;  ///< mean of BlockSet::compliance of the two, where a fixed block and a
+                   ///< lining, which is thin, count as the other, but four times the smaller one at
+                   ///< most, so that a small block between large ones does not sink into them, m/Pa
 };
 FaceSides sides_of(const BlockSet& blocks, Id edge, Id facing);
 /// The same against a much larger block, with the largest compliance that sides_of() allows.

@@ -1,4 +1,4 @@
-// A lining in ground under two pressures: validation.md rows 82 and 83.
+// A lining in ground under two pressures: validation.md rows 84 and 85.
 #include <Eigen/Dense>
 #include <cmath>
 #include <numbers>
