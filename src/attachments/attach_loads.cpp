@@ -146,6 +146,17 @@ std::vector<std::array<Vec2, 2>> dry_outlines(const Model& model, const Water& w
   return lines;
 }
 
+/// Whether a lining lies in an opening that is not flooded, on its wall or on another lining there.
+bool is_drained(const Model& model, const Water& water, Index row) {
+  const Lining* lining = &model.linings[static_cast<std::size_t>(row)];
+  for (auto below = model.linings.rbegin(); below != model.linings.rend(); ++below) {
+    if (!lining->on.empty() && below->name == lining->on) lining = &*below;
+  }
+  const auto& full = water.flooded;
+  return !lining->opening.empty() &&
+         std::find(full.begin(), full.end(), lining->opening) == full.end();
+}
+
 /// The zones between the ends of the table, whose rock has pores.
 void wet_pores(const Model& model, const BlockSet& b, const Table& table, double snap, Index row,
                std::vector<WetZone>& wet) {
@@ -171,7 +182,8 @@ void attach_water(const Model& model, const Water& water, Index row, const Block
   const std::size_t before = loads.wet.size();
   std::vector<Part> dry;
   for (Id v = 0; v < b.vertex_count(); ++v) {
-    if (b.fixed[b.vertex_block[v]]) continue;
+    const Id i = b.vertex_block[v];
+    if (b.fixed[i] || (b.is_lining(i) && is_drained(model, water, b.lining[i]))) continue;
     dry.clear();
     for (const auto& line : outlines) {
       const Part part = on_segment(b, v, line[0], line[1], snap);

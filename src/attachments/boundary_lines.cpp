@@ -20,7 +20,9 @@ Box model_box(const Model& model, const BlockSet& b) {
   if (model.domain) {
     for (Vec2 p : model.domain->outline) box.add(p - b.origin);
   } else {
-    for (std::size_t v = 0; v < b.vertex_count(); ++v) box.add(b.vertex(v));
+    for (std::size_t v = 0; v < b.vertex_count(); ++v) {
+      if (!b.is_lining(b.vertex_block[v])) box.add(b.vertex(v));
+    }
   }
   return box;
 }

@@ -42,10 +42,12 @@ struct BlockSet {
 
   // Read by the contact search and at events. Vertices of a block are contiguous, ring after ring;
   // edge v runs from vertex v to next[v] and has the block on its left.
-  std::vector<Id> vertex_begin;     ///< [nb + 1] first vertex of each block
-  std::vector<Id> vertex_block;     ///< [nv] block of each vertex
-  std::vector<Id> next, previous;   ///< [nv] neighbours along the ring
-  std::vector<Index> edge_joint;    ///< [nv] law named by edge v, or none
+  std::vector<Id> vertex_begin;    ///< [nb + 1] first vertex of each block
+  std::vector<Id> vertex_block;    ///< [nv] block of each vertex
+  std::vector<Id> next, previous;  ///< [nv] neighbours along the ring
+  std::vector<Index> edge_joint;   ///< [nv] law named by edge v, or none
+  std::vector<Index>
+      unnamed_joint;  ///< [nv] law of the edges that name none; empty: all contact.joint
   std::vector<Index> edge_table;    ///< [nv] row of `tables`, or none
   std::vector<std::string> tables;  ///< of the model, from which lines come (PolygonSet)
   std::vector<double> edge_length;  ///< [nv] at the start, m

@@ -61,9 +61,7 @@ void bond_faces(FaceSet& c, FaceStates& states, const BlockSet& b, const Pose& p
     if (of_blocks != nullptr && (*of_blocks)[b.vertex_block[e]] == 0 &&
         (*of_blocks)[b.vertex_block[f]] == 0)
       continue;
-    const std::uint16_t drawn =
-        laws.resolve(b.edge_joint[e], b.edge_joint[f], b.material[b.vertex_block[e]],
-                     b.material[b.vertex_block[f]]);
+    const std::uint16_t drawn = law_between(laws, b, e, f, true);
     const Law& law = laws.rows[drawn];
     const bool weakens = law.type == LawType::slip_weakening, has_bond = may_weaken(law);
     const bool other = drawn != c.law[k];

@@ -73,10 +73,6 @@ LawTable build_laws(const Model& model) {
     table.any_changes = table.any_changes || table.rows.back().changes;
     table.any_softens = table.any_softens || table.rows.back().softens;
   }
-  for (const Lining& lining : model.linings) {
-    if (lining.interface != none)
-      table.rows[static_cast<std::size_t>(lining.interface)].interface = true;
-  }
   std::vector<std::uint16_t> order(table.rows.size());
   std::iota(order.begin(), order.end(), std::uint16_t{0});
   auto key = [&](std::uint16_t r) {
@@ -154,7 +150,6 @@ std::uint16_t LawTable::resolve(Index edge, Index facing) const {
   if (edge == none) return static_cast<std::uint16_t>(facing);
   if (facing == none || facing == edge) return static_cast<std::uint16_t>(edge);
   const auto a = static_cast<std::uint16_t>(edge), b = static_cast<std::uint16_t>(facing);
-  if (rows[a].interface != rows[b].interface) return rows[a].interface ? a : b;
   return rank[a] < rank[b] ? a : b;
 }
 
@@ -178,6 +173,22 @@ std::uint16_t LawTable::resolve_met(Index edge, Index facing, Index edge_materia
     return joint != none && rows[static_cast<std::size_t>(joint)].glued ? none : joint;
   };
   return resolve(unglued(edge), unglued(facing), edge_material, facing_material);
+}
+
+std::uint16_t law_between(const LawTable& laws, const BlockSet& b, Id edge, Id facing, bool drawn) {
+  const Id i = b.vertex_block[edge], j = b.vertex_block[facing];
+  Index of_edge = b.edge_joint[edge], of_facing = b.edge_joint[facing];
+  if (b.is_lining(i) != b.is_lining(j)) {
+    const Index own = b.is_lining(i) ? of_edge : of_facing;
+    const bool holds = own != none && (drawn || !laws.rows[static_cast<std::size_t>(own)].glued);
+    if (holds) return static_cast<std::uint16_t>(own);
+  }
+  if (of_edge == none && of_facing == none && !b.unnamed_joint.empty()) {
+    of_edge = b.unnamed_joint[edge];
+    of_facing = b.unnamed_joint[facing];
+  }
+  return drawn ? laws.resolve(of_edge, of_facing, b.material[i], b.material[j])
+               : laws.resolve_met(of_edge, of_facing, b.material[i], b.material[j]);
 }
 
 }  // namespace edda

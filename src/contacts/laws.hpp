@@ -17,7 +17,6 @@ struct Law {
   double residual_friction, residual_cohesion, residual_tension;
   double kn, ks;  ///< each 0: the default of [contact] applies
   bool glued;
-  bool interface = false;  ///< a lining names it for its faces, whatever the law of the wall
   // Dashpots and penalty of its own, where the law gives a restitution (step/restitution.hpp).
   bool dashpots = false;
   double damping = 0.0, shear_damping = 0.0;  ///< fractions of critical
@@ -108,5 +107,10 @@ struct LawTable {
 };
 
 LawTable build_laws(const Model& model);
+
+/// Law of a face between two edges that lie against each other as drawn, or have met since: that
+/// which a lining names for itself, whatever the other names; else resolve() or resolve_met().
+std::uint16_t law_between(const LawTable& laws, const BlockSet& blocks, Id edge, Id facing,
+                          bool drawn);
 
 }  // namespace edda

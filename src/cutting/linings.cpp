@@ -149,6 +149,23 @@ bool touches(const BlockPolygon& lining, std::span<const BlockPolygon> blocks, d
   });
 }
 
+/// The first block, of rock that stays, in which the middle of a piece lies; null: none.
+const BlockPolygon* holding(const BlockPolygon& lining, std::span<const BlockPolygon> blocks,
+                            double within) {
+  const StripSections s = sections_of(lining);
+  std::vector<Vec2> corners;
+  for (const Ring& ring : lining.rings) corners.insert(corners.end(), ring.begin(), ring.end());
+  for (std::uint32_t p = 0; p < s.pieces(); ++p) {
+    Vec2 middle;
+    for (const std::uint32_t v : s.corners(p)) middle += 0.25 * corners[v];
+    const auto found = std::find_if(blocks.begin(), blocks.end(), [&](const BlockPolygon& block) {
+      return block.opening == none && side_of(block.rings, middle, within) > 0;
+    });
+    if (found != blocks.end()) return &*found;
+  }
+  return nullptr;
+}
+
 BlockPolygon strip_of(const Lining& lining, const Path& path, std::vector<Vec2> inner) {
   std::reverse(inner.begin(), inner.end());
   BlockPolygon strip;
@@ -208,6 +225,13 @@ Faults add_linings(const Model& model, PolygonSet& polygons) {
     if (!polygons.blocks.empty() && !touches(strip, polygons.blocks, rounding * thickness)) {
       faults.push_back(
           {lining.where, "touches no block", "move it to a wall (edda cut draws the blocks)"});
+      continue;
+    }
+    if (holding(strip, polygons.blocks, rounding * thickness) != nullptr) {
+      faults.push_back({lining.where, "lies within a block",
+                        lining.along.empty()
+                            ? "give less thickness, or make room for it"
+                            : "write its line the other way round: a lining lies on its left"});
       continue;
     }
     polygons.blocks.push_back(std::move(strip));

@@ -73,14 +73,14 @@ Result<Scene> build_scene(Model given, BlockOrder order, const Stepper& stepper)
   Result<PolygonSet> cut = build_polygons(scene.model);
   if (!cut.ok()) return cut.faults();
   scene.polygons = std::move(cut.value());
-  if (order == BlockOrder::reversed) {
-    std::reverse(scene.polygons.blocks.begin(), scene.polygons.blocks.end());
-    scene.polygons.reversed = true;
-  }
   const Solver& solver = scene.model.solver;
   divide_edges(scene.model, scene.polygons);
   if (std::vector<Fault> faults = add_linings(scene.model, scene.polygons); !faults.empty())
     return faults;
+  if (order == BlockOrder::reversed) {
+    std::reverse(scene.polygons.blocks.begin(), scene.polygons.blocks.end());
+    scene.polygons.reversed = true;
+  }
   BlockSet& blocks = scene.blocks;
   blocks = build_blocks(scene.model, scene.polygons);
   if (std::vector<Fault> faults = fit_restitution(scene.model, blocks); !faults.empty()) {

@@ -115,7 +115,7 @@ void place_mesh(Simulation& sim, std::size_t i, const std::vector<Vec2>& node) {
 }
 
 /// Faces of these blocks are closed without force where there is less than `gap` (m, by block)
-/// between the edges, and have the strength of edges that touch as drawn.
+/// between the edges, or an overlap, and have the strength of edges that touch as drawn.
 void close_faces(Simulation& sim, FaceSet& faces, FaceStates& states,
                  const std::vector<std::uint8_t>& born) {
   const BlockSet& b = sim.scene->blocks;
@@ -125,8 +125,7 @@ void close_faces(Simulation& sim, FaceSet& faces, FaceStates& states,
     if (born[one] == 0 && born[other] == 0) continue;
     const double gap = b.inradius[born[one] != 0 ? one : other];
     const Face face = face_at(faces, b, pose.x, pose.y, k);
-    if (!(face.length > 0.0) || std::abs(face.drawn.a) > gap || std::abs(face.drawn.b) > gap)
-      continue;
+    if (!(face.length > 0.0) || std::min(face.drawn.a, face.drawn.b) < -gap) continue;
     faces.locked_closure_a[k] = -face.drawn.a;
     faces.locked_closure_b[k] = -face.drawn.b;
     faces.set(FaceFlag::acts, k);

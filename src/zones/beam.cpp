@@ -227,7 +227,7 @@ double utilisation(const SectionStrength& strength, double axial, double moment)
     // Through the origin: whatever is on it is at the limit.
     if (s.limit > tolerated * largest) {
       most = std::max(most, value / s.limit);
-    } else if (value >= -tolerated * largest && moment != 0.0) {
+    } else if (value > tolerated * largest || (value >= -tolerated * largest && moment != 0.0)) {
       most = std::max(most, 1.0);
     }
   }

@@ -248,8 +248,11 @@ void evaluate_piece(const ZoneModel& model, const BlockSet& b, double h, Zones& 
   const Vec2 chord = x[1] + x[2] - x[0] - x[3];
   all.stress[outer] = along_chord(mean + bent, chord);
   all.stress[inner] = along_chord(mean - bent, chord);
-  const auto yielding = r.yields ? Yielding::in_tension : Yielding::nowhere;
-  all.yielding[outer] = all.yielding[inner] = static_cast<std::uint8_t>(yielding);
+  for (const auto& [zone, stress] :
+       {std::pair{outer, mean + bent}, std::pair{inner, mean - bent}}) {
+    const Yielding as = stress > 0.0 ? Yielding::in_tension : Yielding::in_shear;
+    all.yielding[zone] = static_cast<std::uint8_t>(r.yields ? as : Yielding::nowhere);
+  }
   all.dissipated[p] += r.dissipated;
   replace_stored(all, p, r.stored, change);
 }

@@ -113,6 +113,13 @@ void complete_linings(const Value& root, Reading& reading) {
     check_section(node, lining, reading);
     check_place(node, lining, reading);
     check_strength(node, lining, reading);
+    if (lining.material != none) {
+      const Material& m = model.materials[static_cast<std::size_t>(lining.material)];
+      if (m.yield || m.foliation)
+        add_fault(reading, place_of(node, "material"), lining.where.key + ".material",
+                  '"' + m.name + "\" has a yield or a foliation, which beams do not have",
+                  "give the lining a material without, and its compressive_strength");
+    }
     if (model.solver.method == Method::dda) {
       add_fault(reading, node->place, lining.where.key,
                 "linings are not available with method = \"dda\"", implicit_remedy);

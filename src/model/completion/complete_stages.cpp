@@ -125,12 +125,23 @@ void complete_excavation(const Value* own, Stage& stage, std::map<std::string, d
 void check_materials(const Material& from, const Material& to, const Value* own, const Where& where,
                      Reading& reading) {
   const bool alike = from.density == to.density && from.young == to.young &&
-                     from.poisson == to.poisson && from.foliation == to.foliation;
-  if (alike) return;
-  add_fault(reading, place_of(own, "to"), where.key + ".to",
-            fmt::format("\"{}\" has another density, young, poisson or foliation than \"{}\"",
-                        to.name, from.name),
-            "a change is one of strength: give both the same of these");
+                     from.poisson == to.poisson && from.foliation == to.foliation &&
+                     from.damping == to.damping && from.pore_pressure == to.pore_pressure &&
+                     from.deformation == to.deformation;
+  if (!alike) {
+    add_fault(reading, place_of(own, "to"), where.key + ".to",
+              fmt::format("\"{}\" has another density, young, poisson, foliation, damping, "
+                          "pore_pressure or deformation than \"{}\"",
+                          to.name, from.name),
+              "a change is one of strength: give both the same of these");
+  } else if (!from.yield || !to.yield) {
+    const std::string& name = from.yield ? to.name : from.name;
+    add_fault(
+        reading, place_of(own, "to"), where.key + ".to",
+        fmt::format("\"{}\" has no yield, and the strength of rock counts in zones that have one",
+                    name),
+        "give both materials a yield; a large cohesion leaves rock elastic");
+  }
 }
 
 void check_laws(const JointLaw& from, const JointLaw& to, const Value* own, const Where& where,
@@ -237,6 +248,17 @@ void check_linings_of(const Stage& stage, const std::map<std::string, double>& e
   }
 }
 
+/// The lining on which this one lies where that has yet to be installed; else empty.
+std::string missing_below(const Model& model, const std::string& name,
+                          const std::set<std::string>& installed) {
+  for (const Lining& lining : model.linings) {
+    const std::string& on = lining.on;
+    if (lining.name != name || on.empty() || name.empty()) continue;
+    if (!installed.contains(on) && !installed_at_first(model, on)) return on;
+  }
+  return {};
+}
+
 /// Bolts and linings that a stage installs, each once.
 void check_install(const Value* own, const Stage& stage, std::set<std::string>& installed,
                    const std::map<std::string, double>& excavated, Reading& reading) {
@@ -253,6 +275,11 @@ void check_install(const Value* own, const Stage& stage, std::set<std::string>& 
     } else if (!installed.insert(name).second) {
       add_fault(reading, list.place, path, '"' + name + "\" has been installed before",
                 "install each once");
+    } else if (const std::string below = missing_below(reading.model, name, installed);
+               !below.empty()) {
+      add_fault(reading, list.place, path,
+                '"' + name + "\" lies on \"" + below + "\", which is not there yet",
+                "install that one before it, or together with it and before it in the list");
     }
   }
 }
@@ -476,6 +503,12 @@ void check_first_linings(const Value& root, Reading& reading) {
     const Value* node = element(root, "lining", q);
     if (!is_table(node) || (!lining.name.empty() && !installed_at_first(model, lining.name)))
       continue;
+    if (!lining.on.empty() && !installed_at_first(model, lining.on)) {
+      add_fault(reading, node->place, lining.where.key,
+                "lies on \"" + lining.on + "\", which is not there at the start",
+                "name it in install of the stage that installs that one, or of a later one");
+      continue;
+    }
     const Opening* opening = unexcavated(model, lining, {});
     if (opening == nullptr) continue;
     add_fault(reading, node->place, lining.where.key,
