@@ -22,10 +22,6 @@ strength = { ucs = "90 MPa", tension = 6e6 }
 unit_weight = "20 kN/m3"
 young = 5e6
 poisson = "40 %"
-[materials."worn rock"]
-density = 2750
-young = 2e10
-poisson = 0.25
 [joints.glue]
 type = "glued"
 [joints.rough]
@@ -317,7 +313,7 @@ duration = 60.0
 excavate = ["cavern"]
 relax = { cavern = 0.6 }
 install = ["round", "shell", "second"]
-change = [{ joints = "rough", to = "weak", region = [[11, 1], [12, 1], [12, 2]], around = "cavern", distance = "2 m" }, { material = "rock", to = "worn rock" }]
+change = [{ joints = "rough", to = "weak", region = [[11, 1], [12, 1], [12, 2]], around = "cavern", distance = "2 m" }]
 activate = ["axle", "wet"]
 masses = "as given"
 reset_displacements = true
@@ -398,6 +394,9 @@ growth = 0.2
 [[block]]
 polygon = [[0, 0], [2, 0], [2, 2], [0, 2]]
 material = "rock"
+[[stage]]
+duration = 1
+change = [{ material = "marl", to = "shale" }]
 [solver]
 duration = 1
 )";

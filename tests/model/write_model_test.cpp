@@ -95,6 +95,12 @@ TEST(WriteModel, RockThatYieldsComesBack) {
   EXPECT_EQ(second.materials[1].yield->peak.gsi, 45.0);
   EXPECT_EQ(second.materials[2].yield->peak.m, 0.9);
   EXPECT_EQ(second.materials[3].foliation->shear_modulus, 8e9);
+  ASSERT_EQ(second.stages.size(), 1U);
+  ASSERT_EQ(second.stages[0].change.size(), 1U);
+  EXPECT_EQ(second.stages[0].change[0].joints, none);
+  EXPECT_EQ(second.stages[0].change[0].opening, none);
+  EXPECT_EQ(second.stages[0].change[0].material, 1);
+  EXPECT_EQ(second.stages[0].change[0].row, 2);
 }
 
 TEST(WriteModel, EveryKeyOfTheTableIsInTheTest) {
