@@ -463,8 +463,8 @@ std::span<const Key> keys_of(const PropertyChange&) {
 }
 
 std::span<const Key> inner_keys_of(const Slot& slot) {
-  if (const auto* table = std::get_if<SubTable>(&slot)) return table->keys;
-  if (const auto* tables = std::get_if<TableList>(&slot)) return tables->keys;
+  if (const auto* one = std::get_if<SubTable>(&slot)) return one->keys;
+  if (const auto* many = std::get_if<TableList>(&slot)) return many->keys;
   return {};
 }
 
