@@ -132,12 +132,15 @@ void wet_edge(const BlockSet& b, Id v, const Table& table, const std::vector<Par
   for (std::size_t k = 1; k < ends.size(); ++k) add({ends[k - 1], ends[k]});
 }
 
+bool is_flooded(const Water& water, const std::string& opening) {
+  return std::find(water.flooded.begin(), water.flooded.end(), opening) != water.flooded.end();
+}
+
 /// Outlines of the openings that are not flooded, local coordinates.
 std::vector<std::array<Vec2, 2>> dry_outlines(const Model& model, const Water& water, Vec2 origin) {
   std::vector<std::array<Vec2, 2>> lines;
   for (const Opening& opening : model.openings) {
-    const auto& full = water.flooded;
-    if (std::find(full.begin(), full.end(), opening.name) != full.end()) continue;
+    if (is_flooded(water, opening.name)) continue;
     for (std::size_t k = 0; k < opening.polygon.size(); ++k) {
       const Vec2 end = opening.polygon[(k + 1) % opening.polygon.size()];
       lines.push_back({opening.polygon[k] - origin, end - origin});
@@ -152,9 +155,7 @@ bool is_drained(const Model& model, const Water& water, Index row) {
   for (auto below = model.linings.rbegin(); below != model.linings.rend(); ++below) {
     if (!lining->on.empty() && below->name == lining->on) lining = &*below;
   }
-  const auto& full = water.flooded;
-  return !lining->opening.empty() &&
-         std::find(full.begin(), full.end(), lining->opening) == full.end();
+  return !lining->opening.empty() && !is_flooded(water, lining->opening);
 }
 
 /// The zones between the ends of the table, whose rock has pores.

@@ -69,8 +69,7 @@ const Lining* lining_of(const Model& model, const BlockPolygon& polygon) {
 /// Areas that belong to the corners of a lining: a quarter of each piece to each of its four.
 std::vector<double> corner_areas(const BlockPolygon& lining) {
   const StripSections s = sections_of(lining);
-  std::vector<Vec2> corner;
-  for (const Ring& ring : lining.rings) corner.insert(corner.end(), ring.begin(), ring.end());
+  const std::vector<Vec2> corner = all_corners(lining);
   std::vector<double> area(corner.size(), 0.0);
   for (std::uint32_t p = 0; p < s.pieces(); ++p) {
     const auto [a, b, c, d] = s.corners(p);
@@ -85,22 +84,17 @@ std::vector<double> corner_areas(const BlockPolygon& lining) {
 Moments moments_of(const BlockPolygon& polygon) {
   Moments m = moments(polygon.rings);
   if (polygon.lining == none) return m;
+  const std::vector<Vec2> corner = all_corners(polygon);
   const std::vector<double> area = corner_areas(polygon);
   Vec2 first;
-  std::size_t at = 0;
-  for (const Ring& ring : polygon.rings)
-    for (const Vec2 p : ring) first += area[at++] * p;
+  for (std::size_t k = 0; k < corner.size(); ++k) first += area[k] * corner[k];
   m.centroid = first / m.area;
   m.sxx = m.syy = m.sxy = 0.0;
-  at = 0;
-  for (const Ring& ring : polygon.rings) {
-    for (const Vec2 p : ring) {
-      const Vec2 arm = p - m.centroid;
-      const double of = area[at++];
-      m.sxx += of * arm.x * arm.x;
-      m.syy += of * arm.y * arm.y;
-      m.sxy += of * arm.x * arm.y;
-    }
+  for (std::size_t k = 0; k < corner.size(); ++k) {
+    const Vec2 arm = corner[k] - m.centroid;
+    m.sxx += area[k] * arm.x * arm.x;
+    m.syy += area[k] * arm.y * arm.y;
+    m.sxy += area[k] * arm.x * arm.y;
   }
   return m;
 }
@@ -182,9 +176,8 @@ void add_modes(BlockSet& b, const Moments& m, std::size_t i) {
 /// The mesh of a lining: two triangles for each piece.
 void add_strip(Meshes& meshes, const BlockPolygon& lining, Vec2 centroid) {
   const StripSections s = sections_of(lining);
-  std::vector<Vec2> node;
-  for (const Ring& ring : lining.rings)
-    for (const Vec2 p : ring) node.push_back(p - centroid);
+  std::vector<Vec2> node = all_corners(lining);
+  for (Vec2& p : node) p -= centroid;
   std::vector<std::array<std::uint32_t, 3>> triangle;
   for (std::uint32_t p = 0; p < s.pieces(); ++p) {
     const auto [a, b, c, d] = s.corners(p);

@@ -89,8 +89,8 @@ struct LawTable {
                             Index facing_material) const;
 
   /// Law of a face (theory, section 4.7): that of the edge that names one; else contact.joint.
-  /// Where both name one and they differ, that of a lining, else the one of lower friction angle,
-  /// then cohesion, then tension, then name.
+  /// Where both name one and they differ, the one of lower friction angle, then cohesion, then
+  /// tension, then name.
   std::uint16_t resolve(Index edge, Index facing) const;
 
   /// k and ks of a face times the thickness, N/m per m of overlap: those of the joint, or, for a

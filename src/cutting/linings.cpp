@@ -5,6 +5,8 @@
 #include <numbers>
 #include <span>
 
+#include "base/rings.hpp"
+
 namespace edda {
 namespace {
 
@@ -122,22 +124,13 @@ bool is_whole(const Path& outer, const std::vector<Vec2>& inner) {
 
 /// Whether a corner or the middle of a side of a lining lies on a block.
 bool touches(const BlockPolygon& lining, std::span<const BlockPolygon> blocks, double within) {
-  Vec2 low = lining.rings[0].front(), high = low;
-  for (const Vec2 p : lining.rings[0]) {
-    low = {std::min(low.x, p.x), std::min(low.y, p.y)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y)};
-  }
-  const auto is_near = [&](const BlockPolygon& block) {
-    Vec2 least = block.rings[0].front(), most = least;
-    for (const Vec2 p : block.rings[0]) {
-      least = {std::min(least.x, p.x), std::min(least.y, p.y)};
-      most = {std::max(most.x, p.x), std::max(most.y, p.y)};
-    }
-    return least.x <= high.x + within && most.x >= low.x - within && least.y <= high.y + within &&
-           most.y >= low.y - within;
+  const auto apart = [&](const BlockPolygon& block, Vec2 axis) {
+    const auto [low, high] = extent_along(lining.rings[0], axis);
+    const auto [least, most] = extent_along(block.rings[0], axis);
+    return least > high + within || most < low - within;
   };
   return std::any_of(blocks.begin(), blocks.end(), [&](const BlockPolygon& block) {
-    if (!is_near(block)) return false;
+    if (apart(block, {1, 0}) || apart(block, {0, 1})) return false;
     for (const Ring& ring : lining.rings) {
       for (std::size_t k = 0; k < ring.size(); ++k) {
         const Vec2 middle = 0.5 * (ring[k] + ring[(k + 1) % ring.size()]);
@@ -149,21 +142,19 @@ bool touches(const BlockPolygon& lining, std::span<const BlockPolygon> blocks, d
   });
 }
 
-/// The first block, of rock that stays, in which the middle of a piece lies; null: none.
-const BlockPolygon* holding(const BlockPolygon& lining, std::span<const BlockPolygon> blocks,
-                            double within) {
+/// Whether the middle of a piece lies in a block of rock that stays.
+bool lies_within(const BlockPolygon& lining, std::span<const BlockPolygon> blocks, double within) {
   const StripSections s = sections_of(lining);
-  std::vector<Vec2> corners;
-  for (const Ring& ring : lining.rings) corners.insert(corners.end(), ring.begin(), ring.end());
+  const std::vector<Vec2> corner = all_corners(lining);
   for (std::uint32_t p = 0; p < s.pieces(); ++p) {
     Vec2 middle;
-    for (const std::uint32_t v : s.corners(p)) middle += 0.25 * corners[v];
-    const auto found = std::find_if(blocks.begin(), blocks.end(), [&](const BlockPolygon& block) {
+    for (const std::uint32_t v : s.corners(p)) middle += 0.25 * corner[v];
+    const auto holds = [&](const BlockPolygon& block) {
       return block.opening == none && side_of(block.rings, middle, within) > 0;
-    });
-    if (found != blocks.end()) return &*found;
+    };
+    if (std::any_of(blocks.begin(), blocks.end(), holds)) return true;
   }
-  return nullptr;
+  return false;
 }
 
 BlockPolygon strip_of(const Lining& lining, const Path& path, std::vector<Vec2> inner) {
@@ -198,6 +189,12 @@ std::vector<Vec2> inner_side(std::span<const Vec2> outer, bool closed, double th
   return inner;
 }
 
+std::vector<Vec2> all_corners(const BlockPolygon& lining) {
+  std::vector<Vec2> all;
+  for (const Ring& ring : lining.rings) all.insert(all.end(), ring.begin(), ring.end());
+  return all;
+}
+
 StripSections sections_of(const BlockPolygon& lining) {
   const bool closed = lining.rings.size() == 2;
   const std::size_t corners = lining.rings[0].size();
@@ -227,7 +224,7 @@ Faults add_linings(const Model& model, PolygonSet& polygons) {
           {lining.where, "touches no block", "move it to a wall (edda cut draws the blocks)"});
       continue;
     }
-    if (holding(strip, polygons.blocks, rounding * thickness) != nullptr) {
+    if (lies_within(strip, polygons.blocks, rounding * thickness)) {
       faults.push_back({lining.where, "lies within a block",
                         lining.along.empty()
                             ? "give less thickness, or make room for it"

@@ -33,5 +33,7 @@ struct StripSections {
   }
 };
 StripSections sections_of(const BlockPolygon& lining);
+/// Its corners, ring after ring.
+std::vector<Vec2> all_corners(const BlockPolygon& lining);
 
 }  // namespace edda

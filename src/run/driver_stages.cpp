@@ -23,16 +23,14 @@ void Driver::begin_stage(std::size_t index) {
   ramp_.since = stage_steps_;
   stage_longest_ = stage().longest();
   times_.end_at(stage_start_ + stage_longest_);
-  if (sim_.scene->model.stages.empty()) {
-    judge_ = Judge(sim_);
-    return;
-  }
-  if (const auto fault = enter_stage(sim_, plans_[index], index == 0)) {
-    end(Status::failed, stage_label(sim_.scene->model, stage_) + ": " + fault->problem);
+  if (!sim_.scene->model.stages.empty()) {
+    if (const auto fault = enter_stage(sim_, plans_[index], index == 0)) {
+      end(Status::failed, stage_label(sim_.scene->model, stage_) + ": " + fault->problem);
+    }
+    stage_longest_ = longest_of_stage();
+    times_.end_at(stage_start_ + stage_longest_);
   }
   judge_ = Judge(sim_);  // with what the stage has installed where it is now
-  stage_longest_ = longest_of_stage();
-  times_.end_at(stage_start_ + stage_longest_);
 }
 
 /// A search for equilibrium has its own time: where masses are scaled, steps alone tell its length.

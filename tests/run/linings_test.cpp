@@ -40,6 +40,13 @@ bool all_are(const std::vector<std::string>& names, const std::string& name) {
          std::all_of(names.begin(), names.end(), [&](const std::string& n) { return n == name; });
 }
 
+void change_joints(Simulation& sim, Index from, Index to) {
+  PropertyChange change;
+  change.joints = from;
+  change.row = to;
+  change_properties(sim, change);
+}
+
 /// A lining on a block of weak joints, and two blocks one of which names the law of its interface.
 std::string slab(const std::string& more) {
   return rock + R"([joints.low]
@@ -82,10 +89,7 @@ TEST(Linings, TheInterfaceIsThatOfTheLiningAlone) {
   Simulation& sim = ready.sim;
   EXPECT_TRUE(all_are(laws_of(sim).of_lining, "bond"));
   EXPECT_TRUE(all_are(laws_of(sim).of_rock, "low"));
-  PropertyChange change;
-  change.joints = 1;
-  change.row = 2;
-  change_properties(sim, change);
+  change_joints(sim, 1, 2);
   EXPECT_TRUE(all_are(laws_of(sim).of_lining, "aged"));
   EXPECT_TRUE(all_are(laws_of(sim).of_rock, "low"));
 }
@@ -112,10 +116,7 @@ material = 'rock'
 [solver]
 duration = 0.01
 )");
-    PropertyChange change;
-    change.joints = 0;
-    change.row = 2;
-    change_properties(ready.sim, change);
+    change_joints(ready.sim, 0, 2);
     EXPECT_TRUE(all_are(laws_of(ready.sim).of_rock, named ? "strong" : "weak"));
   }
 }

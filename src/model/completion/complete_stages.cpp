@@ -186,14 +186,12 @@ void complete_change(const Value* own, PropertyChange& change, Reading& reading)
         distance ? "distance is given without an opening" : "around is given without a distance",
         distance ? "give around = \"NAME\", an opening" : "give distance = \"2 m\"");
   } else if (given(own, "around")) {
-    const std::vector<Opening>& all = model.openings;
-    const auto found = std::find_if(all.begin(), all.end(),
-                                    [&](const Opening& o) { return o.name == change.around; });
-    if (found == all.end()) {
+    const Opening* const opening = opening_called(reading.model, change.around);
+    if (opening == nullptr) {
       names_nothing(reading, *find(own, "around"), change.where.key + ".around", change.around,
-                    "opening", names_in(all));
+                    "opening", names_in(model.openings));
     } else {
-      change.opening = static_cast<Index>(found - all.begin());
+      change.opening = static_cast<Index>(opening - model.openings.data());
     }
   }
 }
