@@ -47,8 +47,8 @@ struct WetEdge {
   Id edge;
   double from, to;
   double level_from, level_to;  ///< y of the table above the ends of the part, m, local
-  /// Row of Model::waters, or beyond them of the water that flows in joints: as it is, and as it was
-  /// before what changes gradually began to change.
+  /// Row of Model::waters, or beyond them of the water that flows in joints: as it is, and as it
+  /// was before what changes gradually began to change.
   Index water;
 };
 

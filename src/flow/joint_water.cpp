@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <tuple>
+#include <span>
 
 namespace edda {
 namespace {
@@ -21,7 +21,7 @@ class Flow {
   }
 
   void solve() {
-    for (const FlowNode& node : net_.nodes) given_.push_back(condition_of(node));
+    give_conditions();
     water_.assign(net_.nodes.size(), {});
     for (Id v = 0; v < net_.node_of.size(); ++v) {
       const Id n = net_.node_of[v];
@@ -49,14 +49,11 @@ class Flow {
       const auto pressure = [&](Id node, double level) {
         return std::max(0.0, gamma_ * (level - net_.nodes[node].place.y));
       };
-      const double aperture = std::cbrt(12.0 * s_.model.flow->viscosity * pipe.length *
-                                        pipe.conductance);
-      const FlowRow row{s_.faces.edge[pipe.face],
-                        s_.faces.facing[pipe.face],
-                        aperture,
-                        through,
-                        pressure(pipe.from, levels.from),
-                        pressure(pipe.to, levels.to)};
+      const double aperture =
+          std::cbrt(12.0 * s_.model.flow->viscosity * pipe.length * pipe.conductance);
+      const FlowRow row{
+          s_.faces.edge[pipe.face],         s_.faces.facing[pipe.face],  aperture, through,
+          pressure(pipe.from, levels.from), pressure(pipe.to, levels.to)};
       const bool more = !joints_.rows.empty() && joints_.rows.back().edge == row.edge &&
                         joints_.rows.back().facing == row.facing;
       if (!more) {
@@ -80,68 +77,61 @@ class Flow {
       if (part.from_node != pipe.from) std::swap(levels.from, levels.to);
       wet.push_back({part.edge, part.from, part.to, levels.from, levels.to, flow_row});
     }
-    auto first = joints_.ground.outside.begin();
     for (const OpenPart& open : net_.open) {
-      while (first != joints_.ground.outside.end() && first->edge < open.edge) ++first;
-      for (auto e = first; e != joints_.ground.outside.end() && e->edge == open.edge; ++e) {
-        const double from = std::max(e->from, open.from), to = std::min(e->to, open.to);
+      for (const WetEdge& e : outside(open.edge)) {
+        const double from = std::max(e.from, open.from), to = std::min(e.to, open.to);
         if (!(to > from)) continue;
-        const double slope = (e->level_to - e->level_from) / (e->to - e->from);
-        wet.push_back({e->edge, from, to, e->level_from + slope * (from - e->from),
-                       e->level_from + slope * (to - e->from), e->water});
+        const double slope = (e.level_to - e.level_from) / (e.to - e.from);
+        wet.push_back({e.edge, from, to, e.level_from + slope * (from - e.from),
+                       e.level_from + slope * (to - e.from), e.water});
       }
     }
     return wet;
   }
 
  private:
-  NodeCondition condition_of(const FlowNode& node) const {
-    double pressure = 0.0;
-    Index water = node.water;
-    if (water != none) {
-      const auto row = static_cast<std::size_t>(water);
-      const double level = level_of(s_.model.waters[row], s_.blocks.origin, node.place.x);
-      pressure = now_.weight[row] * (level + now_.rise[row] - node.place.y) / thickness_;
-    } else if (node.edge != no_id) {
-      std::tie(pressure, water) = pressure_outside(node);
-    } else {
-      return {};
-    }
-    if (pressure > 0.0) return {Kind::pressure, pressure, water};
-    return {Kind::air, 0.0, none};
-  }
-
-  /// Of the open water beside a node, and the row of it that presses most.
-  std::pair<double, Index> pressure_outside(const FlowNode& node) const {
-    const std::vector<WetEdge>& outside = joints_.ground.outside;
-    double sum = 0.0, most = 0.0;
-    Index water = none;
-    constexpr double rounding = 1e-9;
-    auto e = std::lower_bound(outside.begin(), outside.end(), node.edge,
-                              [](const WetEdge& x, Id edge) { return x.edge < edge; });
-    std::vector<Index> counted;
-    for (; e != outside.end() && e->edge == node.edge; ++e) {
-      if (node.at < e->from - rounding || node.at > e->to + rounding) continue;
-      if (std::find(counted.begin(), counted.end(), e->water) != counted.end()) continue;
-      counted.push_back(e->water);
-      const auto row = static_cast<std::size_t>(e->water);
-      const double slope = (e->level_to - e->level_from) / (e->to - e->from);
-      const double level = e->level_from + slope * (node.at - e->from) + now_.rise[row];
-      const double p = std::max(0.0, now_.weight[row] * (level - node.place.y) / thickness_);
-      sum += p;
-      if (p > most) {
-        most = p;
-        water = e->water;
+  /// The head of a line in the rock, else the highest pressure of what lies open beside the node.
+  void give_conditions() {
+    given_.assign(net_.nodes.size(), {});
+    for (const Outcrop& outcrop : net_.outcrops) {
+      NodeCondition& given = given_[outcrop.node];
+      if (given.kind == Kind::inside) given.kind = Kind::air;
+      for (const WetEdge& e : outside(outcrop.edge)) {
+        constexpr double rounding = 1e-9;
+        if (outcrop.at < e.from - rounding || outcrop.at > e.to + rounding) continue;
+        const double slope = (e.level_to - e.level_from) / (e.to - e.from);
+        take(given, e.water, e.level_from + slope * (outcrop.at - e.from),
+             net_.nodes[outcrop.node]);
       }
     }
-    return {sum, water};
+    for (std::size_t n = 0; n < given_.size(); ++n) {
+      const FlowNode& node = net_.nodes[n];
+      if (node.water == none) continue;
+      given_[n] = {Kind::air, 0.0, none};
+      const Water& water = s_.model.waters[static_cast<std::size_t>(node.water)];
+      take(given_[n], node.water, level_of(water, s_.blocks.origin, node.place.x), node);
+    }
+  }
+
+  /// The node has the pressure of this water, of this level before it rises, where that is higher.
+  void take(NodeCondition& given, Index water, double level, const FlowNode& node) const {
+    const auto row = static_cast<std::size_t>(water);
+    const double pressure = now_.weight[row] * (level + now_.rise[row] - node.place.y) / thickness_;
+    if (pressure > given.pressure) given = {Kind::pressure, pressure, water};
+  }
+
+  std::span<const WetEdge> outside(Id edge) const {
+    const std::vector<WetEdge>& all = joints_.ground.outside;
+    const auto before = [](const WetEdge& x, Id e) { return x.edge < e; };
+    const auto first = std::lower_bound(all.begin(), all.end(), edge, before);
+    return {first, std::lower_bound(first, all.end(), edge + 1, before)};
   }
 
   void note_inflow(Id node, double out_of_it) {
     const NodeCondition& given = given_[node];
     if (given.kind == Kind::inside) return;
-    const std::size_t row = given.water == none ? joints_.inflow.size() - 1
-                                                : static_cast<std::size_t>(given.water);
+    const std::size_t row =
+        given.water == none ? joints_.inflow.size() - 1 : static_cast<std::size_t>(given.water);
     joints_.inflow[row] += out_of_it;
   }
 

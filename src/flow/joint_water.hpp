@@ -20,8 +20,8 @@ struct JointWater {
   FlowGround ground;
   std::vector<double> pressure, filled;  ///< [nv] NodeWater of the node of each corner
   std::vector<FlowRow> rows;             ///< of the faces with water, by edge and facing
-  std::vector<double> inflow;  ///< [rows of Model::waters, and the open air] m2/s into the joints
-  bool found = true;           ///< whether the free surface has been found
+  std::vector<double> inflow;   ///< [rows of Model::waters, and the open air] m2/s into the joints
+  bool found = true;            ///< whether the free surface has been found
   std::vector<WetEdge> before;  ///< water in joints before what changes gradually began to change
 };
 

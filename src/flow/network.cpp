@@ -12,15 +12,18 @@ namespace {
 
 /// Corners nearer to each other along a face than this part of its shorter edge share a node.
 constexpr double same_node = 1e-3;
+/// A part of an edge without a face is a void between joints, a node, up to this part of the edge:
+/// where blocks have slipped past each other. What is longer lies open.
+constexpr double longest_void = 0.1;
 
 /// The overlap of a face: its ends, and the corners that bound them.
 struct Overlap {
   Id face;
-  double length;        // m
-  FaceEnds xi, eta;     // along its edges, as in FaceFields
-  FaceEnds opening;     // of the surfaces as drawn, m
+  double length;                // m
+  FaceEnds xi, eta;             // along its edges, as in FaceFields
+  FaceEnds opening;             // of the surfaces as drawn, m
   Id corner_a[2], corner_b[2];  // the second no_id where one corner alone bounds the end
-  bool is_point;        // shorter than what makes two nodes
+  bool is_point;                // shorter than what makes two nodes
 };
 
 class Nodes {
@@ -33,6 +36,7 @@ class Nodes {
     return v;
   }
   void use(Id v) { used_[v] = 1; }
+  bool used(Id v) const { return used_[v] != 0; }
   void join(Id v, Id w) {
     use(v);
     use(w);
@@ -73,7 +77,7 @@ std::optional<Overlap> overlap_of_face(const FlowScene& s, std::size_t k) {
   f.opening = {-(o.closure_at_0 + o.closure_slope * o.ma),
                -(o.closure_at_0 + o.closure_slope * o.mb)};
   const bool e_at_a = o.r2 <= 0.0, e_at_b = o.s2 <= o.r1;
-  const auto corners = [&](Id (&to)[2], Id of_e, Id of_f, bool e_bounds, double apart) {
+  const auto corners = [&](Id(&to)[2], Id of_e, Id of_f, bool e_bounds, double apart) {
     to[0] = e_bounds ? of_e : of_f;
     to[1] = std::abs(apart) <= near ? (e_bounds ? of_f : of_e) : no_id;
   };
@@ -112,6 +116,8 @@ std::vector<Crossing> crossings(const FlowScene& s, const FlowGround& ground,
     found.push_back({at, line.water});
   }
   std::sort(found.begin(), found.end(), [](Crossing x, Crossing y) { return x.at < y.at; });
+  const auto same = [](Crossing x, Crossing y) { return y.at - x.at <= same_node; };
+  found.erase(std::unique(found.begin(), found.end(), same), found.end());
   return found;
 }
 
@@ -121,33 +127,86 @@ class Builder {
       : s_(scene), ground_(ground), acts_(acts) {}
 
   FlowNetwork build() {
-    for (std::size_t k = 0; k < s_.faces.size(); ++k) {
-      if (const std::optional<Overlap> f = overlap_of_face(s_, k)) overlaps_.push_back(*f);
-    }
+    find_overlaps();
     make_nodes();
     for (const Overlap& f : overlaps_) add_pipes(f);
     for (const FlowPipe& pipe : net_.pipes) {
       net_.nodes[pipe.from].conductance += pipe.conductance;
       net_.nodes[pipe.to].conductance += pipe.conductance;
     }
-    std::sort(net_.covered.begin(), net_.covered.end(),
-              [](const CoveredPart& x, const CoveredPart& y) {
-                return x.edge != y.edge ? x.edge < y.edge : x.from < y.from;
-              });
+    sort_by_edge(net_.covered);
     find_open_parts();
     return std::move(net_);
   }
 
  private:
+  template <class Part>
+  static void sort_by_edge(std::vector<Part>& parts) {
+    std::sort(parts.begin(), parts.end(), [](const Part& x, const Part& y) {
+      return x.edge != y.edge ? x.edge < y.edge : x.from < y.from;
+    });
+  }
+
+  /// A wall sees the nearest one alone: of two faces that cover the same part of an edge the one
+  /// that has opened less counts.
+  void find_overlaps() {
+    std::vector<Overlap> all;
+    for (std::size_t k = 0; k < s_.faces.size(); ++k) {
+      if (const std::optional<Overlap> f = overlap_of_face(s_, k)) all.push_back(*f);
+    }
+    std::vector<std::size_t> nearest(all.size());
+    std::iota(nearest.begin(), nearest.end(), std::size_t{0});
+    const auto opening = [&](std::size_t q) { return all[q].opening.a + all[q].opening.b; };
+    std::stable_sort(nearest.begin(), nearest.end(),
+                     [&](std::size_t x, std::size_t y) { return opening(x) < opening(y); });
+    std::vector<std::vector<Part>> taken(s_.blocks.vertex_count());
+    std::vector<std::uint8_t> counts(all.size(), 0);
+    for (const std::size_t q : nearest) {
+      const Overlap& f = all[q];
+      const Id e = s_.faces.edge[f.face], g = s_.faces.facing[f.face];
+      const Part on_e{f.xi.a, f.xi.b}, on_g{1.0 - f.eta.b, 1.0 - f.eta.a};
+      if (!f.is_point && (is_taken(taken[e], on_e) || is_taken(taken[g], on_g))) continue;
+      counts[q] = 1;
+      if (f.is_point) continue;
+      taken[e].push_back(on_e);
+      taken[g].push_back(on_g);
+    }
+    for (std::size_t q = 0; q < all.size(); ++q) {
+      if (counts[q] != 0) overlaps_.push_back(all[q]);
+    }
+  }
+  static bool is_taken(const std::vector<Part>& taken, Part part) {
+    return std::any_of(taken.begin(), taken.end(), [&](Part t) {
+      return std::min(t.to, part.to) - std::max(t.from, part.from) >
+             longest_void * std::min(t.to - t.from, part.to - part.from);
+    });
+  }
+
+  /// Corners at the ends of what a face covers of an edge.
+  struct Between {
+    Id edge;
+    double from, to;
+    Id from_corner, to_corner;
+  };
+
   void make_nodes() {
     Nodes nodes(s_.blocks.vertex_count());
+    std::vector<Between> parts;
     for (const Overlap& f : overlaps_) {
       for (const auto* end : {&f.corner_a, &f.corner_b}) {
         nodes.use((*end)[0]);
         if ((*end)[1] != no_id) nodes.join((*end)[0], (*end)[1]);
       }
-      if (f.is_point) nodes.join(f.corner_a[0], f.corner_b[0]);
+      if (f.is_point) {
+        nodes.join(f.corner_a[0], f.corner_b[0]);
+        continue;
+      }
+      const Id a = f.corner_a[0], b = f.corner_b[0];
+      parts.push_back({s_.faces.edge[f.face], f.xi.a, f.xi.b, a, b});
+      parts.push_back({s_.faces.facing[f.face], 1.0 - f.eta.b, 1.0 - f.eta.a, b, a});
     }
+    sort_by_edge(parts);
+    join_across_voids(parts, nodes);
     std::size_t count = 0;
     net_.node_of = nodes.number(count);
     net_.nodes.resize(count);
@@ -163,11 +222,28 @@ class Builder {
           net_.nodes[n].water = line.water;
       }
     }
-    for (std::size_t n = 0; n < count; ++n) net_.nodes[n].place = (1.0 / corners[n]) * net_.nodes[n].place;
+    for (std::size_t n = 0; n < count; ++n)
+      net_.nodes[n].place = (1.0 / corners[n]) * net_.nodes[n].place;
+  }
+
+  /// What bounds a void is one node.
+  void join_across_voids(const std::vector<Between>& parts, Nodes& nodes) const {
+    for (std::size_t q = 0; q < parts.size(); ++q) {
+      const Between& part = parts[q];
+      const bool first = q == 0 || parts[q - 1].edge != part.edge;
+      const bool last = q + 1 == parts.size() || parts[q + 1].edge != part.edge;
+      if (first && part.from <= longest_void && nodes.used(part.edge))
+        nodes.join(part.edge, part.from_corner);
+      if (!first && std::abs(part.from - parts[q - 1].to) <= longest_void)
+        nodes.join(parts[q - 1].to_corner, part.from_corner);
+      const Id end = s_.blocks.next[part.edge];
+      if (last && 1.0 - part.to <= longest_void && nodes.used(end)) nodes.join(part.to_corner, end);
+    }
   }
 
   /// The pipes of a face, and the parts of its two edges that they wet.
   void add_pipes(const Overlap& f) {
+    if (f.is_point) return;
     const std::size_t law = s_.faces.law[f.face];
     const Id from = net_.node_of[f.corner_a[0]], to = net_.node_of[f.corner_b[0]];
     FaceEnds aperture;
@@ -175,12 +251,12 @@ class Builder {
       aperture = {aperture_of(s_.model.joints[law], f.opening.a),
                   aperture_of(s_.model.joints[law], f.opening.b)};
     }
-    if (f.is_point || aperture.a == 0.0) return cover(f, 0.0, 1.0, from, to, no_id);
+    if (aperture.a == 0.0) return cover(f, 0.0, 1.0, from, to, no_id);
     double last = 0.0;
     Id last_node = from;
     const auto add = [&](double until, Id node) {
       const auto there = [&](double t) { return (1.0 - t) * aperture.a + t * aperture.b; };
-      FlowPipe pipe{f.face, last_node, node, last, until, (until - last) * f.length,
+      FlowPipe pipe{f.face,      last_node,    node, last, until, (until - last) * f.length,
                     there(last), there(until), 0.0};
       pipe.conductance = conductance_of(pipe.from_aperture, pipe.to_aperture, pipe.length,
                                         s_.model.flow->viscosity);
@@ -193,8 +269,7 @@ class Builder {
       const Id e = s_.faces.edge[f.face], end = s_.faces.edge_end[f.face];
       const double xi = (1.0 - c.at) * f.xi.a + c.at * f.xi.b;
       FlowNode node;
-      node.place =
-          (1.0 - xi) * at(s_.pose.x, s_.pose.y, e) + xi * at(s_.pose.x, s_.pose.y, end);
+      node.place = (1.0 - xi) * at(s_.pose.x, s_.pose.y, e) + xi * at(s_.pose.x, s_.pose.y, end);
       node.water = c.water;
       net_.nodes.push_back(node);
       add(c.at, static_cast<Id>(net_.nodes.size() - 1));
@@ -204,14 +279,13 @@ class Builder {
 
   void cover(const Overlap& f, double from, double to, Id from_node, Id to_node, Id pipe) {
     const auto between = [](FaceEnds ends, double t) { return (1.0 - t) * ends.a + t * ends.b; };
-    net_.covered.push_back({s_.faces.edge[f.face], between(f.xi, from), between(f.xi, to),
-                            from_node, to_node, pipe});
+    net_.covered.push_back(
+        {s_.faces.edge[f.face], between(f.xi, from), between(f.xi, to), from_node, to_node, pipe});
     net_.covered.push_back({s_.faces.facing[f.face], 1.0 - between(f.eta, to),
                             1.0 - between(f.eta, from), to_node, from_node, pipe});
   }
 
-  /// What no face covers of the edges of free blocks. Gaps between two faces, and between a face
-  /// and a corner, that are shorter than what makes two nodes belong to what is covered.
+  /// What no face covers of the edges of free blocks. Voids belong to what is covered beside them.
   void find_open_parts() {
     const BlockSet& b = s_.blocks;
     std::size_t c = 0;
@@ -223,7 +297,7 @@ class Builder {
       double reached = 0.0;
       for (std::size_t q = first; q < c; ++q) {
         CoveredPart& part = net_.covered[q];
-        if (part.from - reached > same_node) {
+        if (part.from - reached > longest_void) {
           add_open(v, reached, part.from, q > first ? &net_.covered[q - 1] : nullptr, &part);
         } else if (q > first) {
           part.from = net_.covered[q - 1].to = 0.5 * (part.from + net_.covered[q - 1].to);
@@ -232,7 +306,7 @@ class Builder {
         }
         reached = std::max(reached, part.to);
       }
-      if (1.0 - reached > same_node) {
+      if (1.0 - reached > longest_void) {
         add_open(v, reached, 1.0, c > first ? &net_.covered[c - 1] : nullptr, nullptr);
       } else if (c > first) {
         net_.covered[c - 1].to = 1.0;
@@ -245,9 +319,7 @@ class Builder {
     net_.open.push_back({edge, from, to});
     if (ground_.supported[edge] != 0) return;
     const auto beside = [&](Id node, double at) {
-      if (node == no_id) return;
-      net_.nodes[node].edge = edge;
-      net_.nodes[node].at = at;
+      if (node != no_id) net_.outcrops.push_back({node, edge, at});
     };
     beside(before != nullptr ? before->to_node : net_.node_of[edge], from);
     beside(after != nullptr ? after->from_node : net_.node_of[s_.blocks.next[edge]], to);
@@ -282,6 +354,7 @@ FlowGround flow_ground(const Model& model, const BlockSet& b, std::vector<WetEdg
     for (const Line& line : lines_along(model, b, water.sides, water.along))
       ground.heads.push_back({line.a, line.b, static_cast<Index>(q)});
   }
+  std::erase_if(outside, [&](const WetEdge& e) { return ground.supported[e.edge] != 0; });
   ground.outside = std::move(outside);
   return ground;
 }

@@ -28,12 +28,15 @@ struct FlowGround {
 FlowGround flow_ground(const Model& model, const BlockSet& blocks, std::vector<WetEdge> outside);
 
 struct FlowNode {
-  Vec2 place;  ///< m, local coordinates
-  // An open part of an edge beside it, if there is one.
-  Id edge = no_id;
-  double at = 0.0;           ///< its own coordinate s there
+  Vec2 place;                ///< m, local coordinates
   Index water = none;        ///< on whose line of heads it lies
   double conductance = 0.0;  ///< of its pipes together
+};
+
+/// A node at the end of an open part of an edge, where the edge has the coordinate s = at.
+struct Outcrop {
+  Id node, edge;
+  double at;
 };
 
 /// A face with an aperture, or a part of one.
@@ -66,6 +69,7 @@ struct FlowNetwork {
   std::vector<FlowPipe> pipes;
   std::vector<CoveredPart> covered;  ///< by edge, and along it
   std::vector<OpenPart> open;        ///< the other parts of edges of free blocks, by edge
+  std::vector<Outcrop> outcrops;     ///< but of edges that lie along boundaries
 };
 
 /// The blocks, where they are, and their contacts.

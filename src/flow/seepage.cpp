@@ -12,8 +12,8 @@ namespace {
 using Kind = NodeCondition::Kind;
 
 /// What is unknown of a node: p where it is wet, s where air enters. Discharges grow with the
-/// unknown of the node they leave and fall with that of the node they enter, so that sweeps over the
-/// nodes one by one come nearer from anywhere (an M-function: Rheinboldt 1970); Newton's method
+/// unknown of the node they leave and fall with that of the node they enter, so that sweeps over
+/// the nodes one by one come nearer from anywhere (an M-function: Rheinboldt 1970); Newton's method
 /// makes an end of it.
 class SeepageSolver {
  public:
@@ -34,9 +34,8 @@ class SeepageSolver {
     for (Id n = 0; n < count; ++n) {
       if (given_[n].kind == Kind::inside && begin_[n + 1] > begin_[n]) inside_.push_back(n);
     }
-    std::stable_sort(inside_.begin(), inside_.end(), [&](Id a, Id b) {
-      return net.nodes[a].place.y > net.nodes[b].place.y;
-    });
+    std::stable_sort(inside_.begin(), inside_.end(),
+                     [&](Id a, Id b) { return net.nodes[a].place.y > net.nodes[b].place.y; });
   }
 
   bool solve() {
@@ -129,7 +128,7 @@ class SeepageSolver {
     double largest = 0.0;
     for (const Id n : inside_) {
       const Balance b = balance_of(n);
-      const double least = 1e-6 * gamma_ * net_.nodes[n].conductance;  // 1 um of head
+      const double least = 1e-3 * gamma_ * net_.nodes[n].conductance;  // 1 mm of head
       largest = std::max(largest, std::abs(b.net) / std::max(b.gross, least));
     }
     return largest;
@@ -223,7 +222,7 @@ class SeepageSolver {
   std::vector<NodeWater>& water_;
   std::vector<std::size_t> begin_;
   std::vector<Neighbour> of_node_;
-  std::vector<Id> inside_;  // from the highest to the lowest
+  std::vector<Id> inside_;                                    // from the highest to the lowest
   double highest_ = std::numeric_limits<double>::infinity();  // potential, Pa
 };
 

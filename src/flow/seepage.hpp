@@ -1,7 +1,7 @@
 // Flow through the network of joints, with a free surface (theory, section 13.9).
 //
-// Of a node: p >= 0 its pressure, s the part of it that water fills, phi = p + gamma y. Either p > 0
-// and s = 1 (wet), or p = 0 and 0 <= s <= 1 (air enters). A pipe from i to j, phi_i >= phi_j, has
+// Of a node: p >= 0 its pressure, s the part of it that water fills, phi = p + gamma y. Either p >
+// 0 and s = 1 (wet), or p = 0 and 0 <= s <= 1 (air enters). A pipe from i to j, phi_i >= phi_j, has
 //   q = s_i C (phi_i - phi_j)
 // so that water falls from a node that air enters, and none rises to it: below it stands. At each
 // node that is inside the rock the discharges, and the growth of what it stores, sum to zero.

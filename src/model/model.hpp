@@ -120,8 +120,8 @@ struct JointLaw {
   std::optional<double> jrc, jcs;  ///< roughness (-), strength of the walls (Pa); barton-bandis
   std::optional<double> residual_angle;  ///< degrees; barton-bandis
   std::optional<double> kn;              ///< Pa/m; without it a penalty (contact_springs.hpp)
-  std::optional<double> ks;  ///< Pa/m; filled with 0.4 kn where kn is given and ks is not
-  std::optional<double> aperture;           ///< m, as drawn, of [flow]; 0: watertight
+  std::optional<double> ks;        ///< Pa/m; filled with 0.4 kn where kn is given and ks is not
+  std::optional<double> aperture;  ///< m, as drawn, of [flow]; 0: watertight
   std::optional<double> residual_aperture;  ///< m: the least; empty: a tenth of it
   std::optional<double> largest_aperture;   ///< m, for its discharge; empty: ten times as much
   std::optional<Restitution> restitution;

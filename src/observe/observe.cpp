@@ -92,8 +92,7 @@ void add_crack(ContactRecord& r, const Simulation& sim, std::size_t k) {
 }
 
 void add_water(ContactRecord& r, const Simulation& sim, const FaceRow& row) {
-  const FlowRow* flow =
-      row_of(sim.attached.joint_water, row.of.edge[row.k], row.of.facing[row.k]);
+  const FlowRow* flow = row_of(sim.attached.joint_water, row.of.edge[row.k], row.of.facing[row.k]);
   if (flow == nullptr) return;
   r.aperture = flow->aperture;
   r.discharge = flow->discharge;

@@ -67,12 +67,8 @@ Trouble Recorder::begin(const Simulation& sim, const Gauges& gauges) {
 }
 
 RecorderMemory Recorder::memory() const {
-  return {history_.bytes(),
-          reactions_.bytes(),
-          bolts_.bytes(),
-          linings_.bytes(),
-          flow_.bytes(),
-          frames_ ? frames_->times() : std::vector<double>{},
+  return {history_.bytes(), reactions_.bytes(), bolts_.bytes(),
+          linings_.bytes(), flow_.bytes(),      frames_ ? frames_->times() : std::vector<double>{},
           inputs_};
 }
 

@@ -73,6 +73,8 @@ void change_velocities(Simulation& sim, const BodyVectors& velocity);
 /// without it: the model is seen from a frame that moves with v. None of its forces changes.
 void lose_velocity(Simulation& sim, Vec2 v);
 
+/// The flow at the start, before contacts have forces.
+void start_flow(Simulation& sim);
 /// Water as drawn acts outside the joints alone, of a model with [flow].
 void begin_flow(const Model& model, const BlockSet& blocks, Attached& attached);
 /// Water in joints follows their motion and its own levels at so many steps.

@@ -181,7 +181,7 @@ Result<Simulation> Simulation::create(Model given, BlockOrder order) {
   sim.attached.bolts = std::move(bolts.value());
   sim.control.limit = std::numeric_limits<double>::infinity();
   search(sim, next_reach(sim));
-  update_flow(sim);
+  start_flow(sim);
   if (model.initial_stress) load_boundaries_with_initial_stress(sim);
   sim.stepper->begin_contacts(sim);
   plan_slivers(sim);

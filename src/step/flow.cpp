@@ -1,4 +1,5 @@
 // Water in the joints of a simulation.
+#include "contacts/activity.hpp"
 #include "step/changes.hpp"
 #include "step/simulation.hpp"
 
@@ -9,6 +10,14 @@ void begin_flow(const Model& model, const BlockSet& blocks, Attached& attached) 
   attached.joint_water.ground = flow_ground(model, blocks, std::move(loads.wet));
   loads.in_joints = model.waters.front().unit_weight * model.thickness;
   put_water(blocks, {}, loads);
+}
+
+void start_flow(Simulation& sim) {
+  if (!sim.scene->model.flow) return;
+  FaceSet& faces = sim.motion.contacts;
+  for (std::size_t k = 0; k < faces.size(); ++k)
+    decide_activity(faces, sim.scene->blocks, sim.motion.pose, {false, false}, k);
+  update_flow(sim);
 }
 
 void update_flow(Simulation& sim) {

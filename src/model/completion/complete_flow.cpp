@@ -8,8 +8,8 @@ namespace {
 
 void check_water(const Value* node, const Water& water, Reading& reading) {
   const std::string& key = water.where.key;
-  if (!one_of(node, key, "table", "level", "a level from left to right such as table = [[0, 5], [20, 5]]",
-              reading))
+  if (!one_of(node, key, "table", "level",
+              "a level from left to right such as table = [[0, 5], [20, 5]]", reading))
     return;
   for (const char* name : {"level", "sides", "along"}) {
     if (reading.model.flow || !given(node, name)) continue;
@@ -38,8 +38,9 @@ void check_apertures(const Value* node, const JointLaw& law, Reading& reading) {
       if (given(node, name)) refuse(name, "belongs to an aperture", "add aperture");
     }
     if (reading.model.flow && law.type != LawType::glued)
-      refuse("aperture", "is missing: water flows through the joints of [flow]",
-             "give the hydraulic aperture as drawn, such as \"0.2 mm\", or 0 for watertight joints");
+      refuse(
+          "aperture", "is missing: water flows through the joints of [flow]",
+          "give the hydraulic aperture as drawn, such as \"0.2 mm\", or 0 for watertight joints");
     return;
   }
   if (law.residual_aperture && *law.residual_aperture > *law.aperture)
@@ -63,13 +64,15 @@ void complete_flow(const Value& root, Reading& reading) {
   if (!model.flow) return;
   const Value* flow = find(&root, "flow");
   if (model.waters.empty())
-    add_fault(reading, flow->place, "flow", "there is no water",
-              "add [[water]] with a table, such as the level of a lake and the sides where the rock "
-              "has that level");
+    add_fault(
+        reading, flow->place, "flow", "there is no water",
+        "add [[water]] with a table, such as the level of a lake and the sides where the rock "
+        "has that level");
   for (std::size_t q = 0; q < model.waters.size(); ++q) {
     const Water& water = model.waters[q];
     if (water.unit_weight == model.waters.front().unit_weight) continue;
-    add_fault(reading, place_of(element(root, "water", q), "unit_weight"), water.where.key + ".unit_weight",
+    add_fault(reading, place_of(element(root, "water", q), "unit_weight"),
+              water.where.key + ".unit_weight",
               fmt::format("differs from that of {}", model.waters.front().where.key),
               "give all waters of a model with [flow] the same");
     return;

@@ -1,0 +1,63 @@
+// Water that flows through joints: still water, networks with known answers, and its forces on
+// blocks.
+#include <algorithm>
+#include <cmath>
+
+#include "attachments/loads.hpp"
+#include "step/changes.hpp"
+#include "verification/scene.hpp"
+#include "verification/settled.hpp"
+
+namespace edda::flow_test {
+namespace {
+
+const std::string rock =
+    "[materials.rock]\ndensity = 2700\nyoung = 20e9\npoisson = 0.25\n"
+    "[joints.bedding]\nfriction_angle = 35\naperture = 3e-4\nkn = 20e9\n";
+
+/// Ground with thin wedges under a lake.
+std::string under_lake() {
+  return rock + "[solver]\nduration = 1\n" +
+         "[domain]\noutline = [[-60,-10],[0,-10],[0,0],[-60,0]]\nmaterial = 'rock'\n"
+         "[[joint_set]]\nangle = -8\nspacing = 5\njoint = 'bedding'\n"
+         "[[joint_set]]\nangle = 75\nspacing = 6\njoint = 'bedding'\n"
+         "[[boundary]]\nsides = ['left', 'right', 'bottom']\ntype = 'roller'\n"
+         "[[water]]\ntable = [[-60, 27], [0, 27]]\n";
+}
+
+/// Force of the water of one simulation on the nodes of block i, where another has its blocks.
+NodeVectors water_on_block(const Simulation& of, const Simulation& at, Id i) {
+  const LoadsNow now = loads_at(of.scene->model, of.attached.loads, 0.0);
+  BlockForces f{of.scene->blocks, i};
+  add_loads(f, now, at.motion.pose.x, at.motion.pose.y);
+  return f.sum.nodes;
+}
+
+/// Still water is that of a table, as drawn and while the blocks settle.
+TEST(Flow, StillWaterPressesAsATable) {
+  const Simulation table = scene(under_lake());
+  Simulation flow = scene(under_lake() + "[flow]\n");
+  const BlockSet& b = table.scene->blocks;
+  std::vector<Id> inside;  // no boundary supports them
+  for (Id i = 0; i < b.size(); ++i) {
+    const auto* supported = flow.attached.joint_water.ground.supported.data();
+    if (std::all_of(supported + b.vertex_begin[i], supported + b.vertex_begin[i + 1],
+                    [](std::uint8_t is) { return is == 0; }))
+      inside.push_back(i);
+  }
+  ASSERT_GE(inside.size(), 10u);
+  start(flow, 1.0);
+  for (int look = 0; look < 100; ++look) {
+    for (const Id i : inside) {
+      const NodeVectors t = water_on_block(table, flow, i), f = water_on_block(flow, flow, i);
+      for (std::size_t k = 0; k < nodes_per_block; ++k) {
+        EXPECT_LE(norm(t[k] - f[k]), (look == 0 ? 1e-9 : 1e-6) * (norm(t[k]) + 1e5))
+            << "block " << i << " after " << flow.motion.state.steps << " steps";
+      }
+    }
+    for (std::uint64_t n = 0; n < steps_between_flows; ++n) ASSERT_FALSE(step(flow));
+  }
+}
+
+}  // namespace
+}  // namespace edda::flow_test
