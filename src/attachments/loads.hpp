@@ -204,6 +204,10 @@ void remove_wall_forces(const Model& model, const BlockSet& blocks, Index owner,
 /// velocity.
 double displacement_factor(const Model& model, const Loads& loads, std::size_t row, double time);
 
+/// Acceleration of the ground by the ground motions of one kind, m/s2.
+Vec2 ground_acceleration(const Model& model, const ActiveIntervals& intervals, ShakingKind kind,
+                         double time);
+
 LoadsNow loads_at(const Model& model, const Loads& loads, double time);
 
 /// Adds the loads on a block, its vertices at `x`, `y`, to the forces on it, N. Water: pressure

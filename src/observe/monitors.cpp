@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "blocks/locate.hpp"
+#include "step/instant.hpp"
 #include "step/labels.hpp"
 
 namespace edda {
@@ -104,6 +105,7 @@ MonitorReading read_monitor(const Simulation& sim, const Instant& at, const Moni
   const BlockSet& b = sim.scene->blocks;
   r.displacement = displacement_of(b, at.state, m);
   r.velocity = at_point(b, at.state.velocity, m);
+  r.acceleration = acceleration_at(sim, at, m);
   r.stress = block_stress(sim, at.state, m.block);
   return r;
 }

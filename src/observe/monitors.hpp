@@ -41,9 +41,10 @@ double convergence(const BlockSet& blocks, const State& state, const Convergence
 /// Displacement of the point, m.
 Vec2 displacement_of(const BlockSet& blocks, const State& state, const MonitorPoint& point);
 
-/// Displacement and velocity of the point, and the stress of its block.
+/// Displacement, velocity and acceleration (acceleration_at()) of the point, and the stress of its
+/// block.
 struct MonitorReading {
-  Vec2 displacement, velocity;
+  Vec2 displacement, velocity, acceleration;
   BlockStress stress;
 };
 MonitorReading read_monitor(const Simulation& sim, const Instant& at, const MonitorPoint& point);

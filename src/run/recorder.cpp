@@ -109,6 +109,7 @@ Trouble Recorder::row(const Simulation& sim, const Instant& at, const Gauges& ga
   for (const MonitorPoint& m : gauges.monitors) {
     const MonitorReading r = read_monitor(sim, at, m);
     csv.add(r.displacement.x).add(r.displacement.y).add(r.velocity.x).add(r.velocity.y);
+    csv.add(r.acceleration.x).add(r.acceleration.y);
     csv.add(r.stress.xx).add(r.stress.yy).add(r.stress.xy);
   }
   for (const ConvergenceLine& line : gauges.convergences)
