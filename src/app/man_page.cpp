@@ -133,6 +133,7 @@ constexpr std::string_view files =
     "How a run ended; written last.\n"
     ".TP\n"
     "\\fIDIR\\fR/history.csv, \\fIDIR\\fR/stages.csv, \\fIDIR\\fR/bolts.csv, "
+    "\\fIDIR\\fR/linings.csv, "
     "\\fIDIR\\fR/reactions.csv\n"
     "What is recorded over time.\n"
     ".TP\n"

@@ -175,6 +175,10 @@ void add_what(CLI::App& command, PlotArguments& args) {
                    "Principal stresses: crosses at the centres of blocks or zones, tension as "
                    "arrows");
   command.add_flag("--bolts", args.bolts, "Bolts, their width in proportion to their axial force");
+  command
+      .add_option("--lining", args.lining,
+                  "Thrust, moment or shear along linings, positive values on the side of the wall")
+      ->check(CLI::IsMember({"thrust", "moment", "shear"}));
   command.add_flag("--cracks", args.cracks,
                    "Joints with fracture energy that have broken, in tension and in shear");
   command
@@ -186,7 +190,7 @@ void add_what(CLI::App& command, PlotArguments& args) {
 /// What is drawn in the place of frames.
 void add_graphs(CLI::App& command, PlotArguments& args) {
   const std::vector<const char*> of_frames{"--compare",   "--before", "--vectors", "--forces",
-                                           "--principal", "--bolts",  "--cracks"};
+                                           "--principal", "--bolts",  "--lining",  "--cracks"};
   CLI::Option* const history =
       command
           .add_option("--history", args.history,

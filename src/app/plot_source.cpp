@@ -86,6 +86,26 @@ std::vector<BoltChain> bolts_at(const Table& table, double time) {
   return chains;
 }
 
+/// The linings at the time of a frame, with the values of this column.
+std::vector<LiningDiagram> linings_at(const Table& table, const std::string& column, double time) {
+  std::vector<LiningDiagram> linings;
+  const Column *t = table.column("time"), *name = table.column("lining"), *x = table.column("x"),
+               *y = table.column("y"), *value = table.column(column);
+  for (const Column* c : {t, name, x, y, value}) {
+    if (c == nullptr) return linings;
+  }
+  std::string last;
+  for (std::size_t r = 0; r < table.rows(); ++r) {
+    if (std::abs(t->values[r] - time) > 1e-9 * std::max(1.0, std::abs(time))) continue;
+    const std::string lining = name->text(r);
+    if (linings.empty() || lining != last) linings.emplace_back();
+    last = lining;
+    linings.back().points.push_back({x->values[r], y->values[r]});
+    linings.back().value.push_back(value->values[r]);
+  }
+  return linings;
+}
+
 Fault no_monitor(const PlotArguments& args, const std::vector<PlotMonitor>& monitors) {
   std::string names;
   for (const PlotMonitor& m : monitors) names += (names.empty() ? "" : ", ") + m.name;
@@ -95,7 +115,7 @@ Fault no_monitor(const PlotArguments& args, const std::vector<PlotMonitor>& moni
 }
 
 Result<Snapshot> snapshot_of(const PlotArguments& args, const SeriesEntry& entry,
-                             const Table* bolts, const PlotMonitor* from) {
+                             const Table* bolts, const Table* linings, const PlotMonitor* from) {
   const std::string& folder = args.source;
   Result<Grid> blocks = read_vtu(folder + "/" + entry.file);
   if (!blocks.ok()) return blocks.faults();
@@ -109,6 +129,7 @@ Result<Snapshot> snapshot_of(const PlotArguments& args, const SeriesEntry& entry
     }
   }
   if (bolts != nullptr) shot.bolts = bolts_at(*bolts, entry.time);
+  if (linings != nullptr) shot.linings = linings_at(*linings, args.lining, entry.time);
   if (from != nullptr && !move_with(shot, from->start)) {
     return Fault{
         {"--relative-to", {}, 0, 0},
@@ -140,6 +161,7 @@ void add_options(const PlotArguments& args, PlotOptions& options) {
   options.forces = args.forces;
   options.principal = args.principal;
   options.bolt_forces = args.bolts;
+  options.lining = args.lining;
   options.cracks = args.cracks;
   options.marks = !args.no_marks;
   options.whole_range = args.whole_range;
@@ -196,6 +218,12 @@ Result<PlotSource> from_folder(const PlotArguments& args) {
                  folder + " holds no bolts.csv",
                  "leave it out: the model has no bolts"};
   }
+  const Result<Table> linings = read_table(folder + "/linings.csv");
+  if (!args.lining.empty() && !linings.ok()) {
+    return Fault{{"--lining", {}, 0, 0},
+                 folder + " holds no linings.csv",
+                 "leave it out: the model has no linings"};
+  }
   PlotSource source;
   source.notes = notes_on(series.value(), args);
   // The title, names and monitors; a picture does without them where the model is gone.
@@ -211,6 +239,7 @@ Result<PlotSource> from_folder(const PlotArguments& args) {
   if (!args.relative_to.empty() && from == monitors.end()) return no_monitor(args, monitors);
   for (const SeriesEntry& entry : chosen(series.value(), args)) {
     Result<Snapshot> shot = snapshot_of(args, entry, bolts.ok() ? &bolts.value() : nullptr,
+                                        args.lining.empty() ? nullptr : &linings.value(),
                                         args.relative_to.empty() ? nullptr : &*from);
     if (!shot.ok()) return shot.faults();
     source.shots.push_back(std::move(shot.value()));
@@ -221,8 +250,9 @@ Result<PlotSource> from_folder(const PlotArguments& args) {
 }
 
 Result<PlotSource> from_model(const PlotArguments& args) {
-  if (args.time || !args.compare.empty() || args.before || args.bolts || args.principal ||
-      args.forces || args.cracks || !args.relative_to.empty() || is_of_contacts(args.field)) {
+  if (args.time || !args.compare.empty() || args.before || args.bolts || !args.lining.empty() ||
+      args.principal || args.forces || args.cracks || !args.relative_to.empty() ||
+      is_of_contacts(args.field)) {
     return Fault{{{}, args.source, 0, 0},
                  "is a model, which has no times, stresses, contacts or loads yet",
                  "run it, and give the folder of its results"};

@@ -14,7 +14,7 @@
 namespace edda {
 
 struct PlotArguments {
-  std::string source, output, field, vectors, title, relative_to;
+  std::string source, output, field, vectors, lining, title, relative_to;
   std::vector<std::string> overrides, history;
   std::vector<double> compare;        ///< s
   std::vector<double> range, window;  ///< low, high; x0, y0, x1, y1

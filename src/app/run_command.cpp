@@ -117,6 +117,7 @@ void add_run(CLI::App& app, int& code) {
       "  history.csv    monitors and energies over time\n"
       "  reactions.csv  forces of the boundaries over time, where there are any\n"
       "  bolts.csv      forces along the bolts at each frame, where there are any\n"
+      "  linings.csv    thrust, moment and shear of linings at each frame, where there are any\n"
       "  blocks.csv     every block at the end;  joints.csv: every contact\n"
       "  blocks.pvd, contacts.pvd   time series: open them in ParaView\n"
       "  model.toml     the model as run, every default filled in\n"

@@ -132,12 +132,15 @@ void wet_edge(const BlockSet& b, Id v, const Table& table, const std::vector<Par
   for (std::size_t k = 1; k < ends.size(); ++k) add({ends[k - 1], ends[k]});
 }
 
+bool is_flooded(const Water& water, const std::string& opening) {
+  return std::find(water.flooded.begin(), water.flooded.end(), opening) != water.flooded.end();
+}
+
 /// Outlines of the openings that are not flooded, local coordinates.
 std::vector<std::array<Vec2, 2>> dry_outlines(const Model& model, const Water& water, Vec2 origin) {
   std::vector<std::array<Vec2, 2>> lines;
   for (const Opening& opening : model.openings) {
-    const auto& full = water.flooded;
-    if (std::find(full.begin(), full.end(), opening.name) != full.end()) continue;
+    if (is_flooded(water, opening.name)) continue;
     for (std::size_t k = 0; k < opening.polygon.size(); ++k) {
       const Vec2 end = opening.polygon[(k + 1) % opening.polygon.size()];
       lines.push_back({opening.polygon[k] - origin, end - origin});
@@ -146,12 +149,21 @@ std::vector<std::array<Vec2, 2>> dry_outlines(const Model& model, const Water& w
   return lines;
 }
 
+/// Whether a lining lies in an opening that is not flooded, on its wall or on another lining there.
+bool is_drained(const Model& model, const Water& water, Index row) {
+  const Lining* lining = &model.linings[static_cast<std::size_t>(row)];
+  for (auto below = model.linings.rbegin(); below != model.linings.rend(); ++below) {
+    if (!lining->on.empty() && below->name == lining->on) lining = &*below;
+  }
+  return !lining->opening.empty() && !is_flooded(water, lining->opening);
+}
+
 /// The zones between the ends of the table, whose rock has pores.
 void wet_pores(const Model& model, const BlockSet& b, const Table& table, double snap, Index row,
                std::vector<WetZone>& wet) {
   const Meshes& m = b.meshes;
   for (std::size_t i = 0; m.any() && i < b.size(); ++i) {
-    if (b.material[i] == none) continue;
+    if (b.material[i] == none || b.is_lining(i)) continue;
     if (b.fixed[i] || !model.materials[static_cast<std::size_t>(b.material[i])].pore_pressure)
       continue;
     for (std::uint32_t z = m.zone_begin[i]; z < m.zone_begin[i + 1]; ++z) {
@@ -171,7 +183,8 @@ void attach_water(const Model& model, const Water& water, Index row, const Block
   const std::size_t before = loads.wet.size();
   std::vector<Part> dry;
   for (Id v = 0; v < b.vertex_count(); ++v) {
-    if (b.fixed[b.vertex_block[v]]) continue;
+    const Id i = b.vertex_block[v];
+    if (b.fixed[i] || (b.is_lining(i) && is_drained(model, water, b.lining[i]))) continue;
     dry.clear();
     for (const auto& line : outlines) {
       const Part part = on_segment(b, v, line[0], line[1], snap);

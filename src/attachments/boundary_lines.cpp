@@ -15,14 +15,18 @@ struct Box {
   }
 };
 
+/// Of the rock; linings count where there is none.
 Box model_box(const Model& model, const BlockSet& b) {
-  Box box;
+  Box rock, all;
   if (model.domain) {
-    for (Vec2 p : model.domain->outline) box.add(p - b.origin);
-  } else {
-    for (std::size_t v = 0; v < b.vertex_count(); ++v) box.add(b.vertex(v));
+    for (Vec2 p : model.domain->outline) rock.add(p - b.origin);
+    return rock;
   }
-  return box;
+  for (std::size_t v = 0; v < b.vertex_count(); ++v) {
+    all.add(b.vertex(v));
+    if (!b.is_lining(b.vertex_block[v])) rock.add(b.vertex(v));
+  }
+  return rock.low.x < rock.high.x ? rock : all;
 }
 
 }  // namespace

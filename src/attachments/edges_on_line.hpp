@@ -37,7 +37,7 @@ std::vector<OnLine> edges_on(const BlockSet& blocks, Vec2 p, Vec2 q, double snap
 /// The remainder of `whole` without `taken`, in order.
 std::vector<Part> without(Part whole, std::vector<Part> taken);
 
-/// Parts of one face, in its own coordinate, that no face of another block covers.
+/// Parts of one face, in its own coordinate, that no face of another block but a lining covers.
 std::vector<Part> free_parts(const std::vector<OnLine>& all, const OnLine& one,
                              const BlockSet& blocks, double snap);
 

@@ -42,10 +42,12 @@ struct BlockSet {
 
   // Read by the contact search and at events. Vertices of a block are contiguous, ring after ring;
   // edge v runs from vertex v to next[v] and has the block on its left.
-  std::vector<Id> vertex_begin;     ///< [nb + 1] first vertex of each block
-  std::vector<Id> vertex_block;     ///< [nv] block of each vertex
-  std::vector<Id> next, previous;   ///< [nv] neighbours along the ring
-  std::vector<Index> edge_joint;    ///< [nv] law named by edge v, or none
+  std::vector<Id> vertex_begin;    ///< [nb + 1] first vertex of each block
+  std::vector<Id> vertex_block;    ///< [nv] block of each vertex
+  std::vector<Id> next, previous;  ///< [nv] neighbours along the ring
+  std::vector<Index> edge_joint;   ///< [nv] law named by edge v, or none
+  std::vector<Index>
+      unnamed_joint;  ///< [nv] law of the edges that name none; empty: all contact.joint
   std::vector<Index> edge_table;    ///< [nv] row of `tables`, or none
   std::vector<std::string> tables;  ///< of the model, from which lines come (PolygonSet)
   std::vector<double> edge_length;  ///< [nv] at the start, m
@@ -76,6 +78,7 @@ struct BlockSet {
   std::vector<double> inradius;  ///< [nb] half the smallest width of the outer ring, m
   std::vector<Index> material;   ///< [nb]
   std::vector<Index> opening;  ///< [nb] opening for whose stage the block is excavated; empty: none
+  std::vector<Index> lining;   ///< [nb] row of Model::linings that the block is; empty: none is
   std::map<Id, std::vector<std::array<Id, 3>>>
       triangles;                    ///< vertices of the triangles of the blocks that are not convex
   std::map<Id, std::string> names;  ///< of the blocks that have one
@@ -86,6 +89,7 @@ struct BlockSet {
   /// Whether the corners of block i move beside its nodes.
   bool bends(std::size_t i) const { return bending.modes_of(i) > 0; }
   bool is_meshed(std::size_t i) const { return meshes.nodes_of(i) > 0; }
+  bool is_lining(std::size_t i) const { return !lining.empty() && lining[i] != none; }
   /// The number of modes of block i: of its bending, or of its mesh.
   std::size_t count_modes(std::size_t i) const { return bending.modes_of(i) + meshes.nodes_of(i); }
   /// The number of places of modes of all blocks.

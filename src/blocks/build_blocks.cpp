@@ -7,6 +7,7 @@
 
 #include "blocks/cover.hpp"
 #include "blocks/kinematics.hpp"
+#include "cutting/linings.hpp"
 #include "cutting/triangulate.hpp"
 #include "cutting/zone_size.hpp"
 
@@ -60,8 +61,47 @@ double interior_angle(Vec2 before, Vec2 at, Vec2 after) {
   return std::numbers::pi - std::atan2(cross(in, out), dot(in, out));
 }
 
-void add_vertices(BlockSet& b, const BlockPolygon& polygon, double young, const Moments& m,
-                  const NodeVectors& g) {
+const Lining* lining_of(const Model& model, const BlockPolygon& polygon) {
+  return polygon.lining == none ? nullptr
+                                : &model.linings[static_cast<std::size_t>(polygon.lining)];
+}
+
+/// Areas that belong to the corners of a lining: a quarter of each piece to each of its four.
+std::vector<double> corner_areas(const BlockPolygon& lining) {
+  const StripSections s = sections_of(lining);
+  const std::vector<Vec2> corner = all_corners(lining);
+  std::vector<double> area(corner.size(), 0.0);
+  for (std::uint32_t p = 0; p < s.pieces(); ++p) {
+    const auto [a, b, c, d] = s.corners(p);
+    const double quarter = 0.125 * cross(corner[c] - corner[a], corner[d] - corner[b]);
+    for (const std::uint32_t k : {a, b, c, d}) area[k] += quarter;
+  }
+  return area;
+}
+
+/// Of a lining those of the masses of its sections, so that its motion as a whole and its
+/// deformation have the same ones.
+Moments moments_of(const BlockPolygon& polygon) {
+  Moments m = moments(polygon.rings);
+  if (polygon.lining == none) return m;
+  const std::vector<Vec2> corner = all_corners(polygon);
+  const std::vector<double> area = corner_areas(polygon);
+  Vec2 first;
+  for (std::size_t k = 0; k < corner.size(); ++k) first += area[k] * corner[k];
+  m.centroid = first / m.area;
+  m.sxx = m.syy = m.sxy = 0.0;
+  for (std::size_t k = 0; k < corner.size(); ++k) {
+    const Vec2 arm = corner[k] - m.centroid;
+    m.sxx += area[k] * arm.x * arm.x;
+    m.syy += area[k] * arm.y * arm.y;
+    m.sxy += area[k] * arm.x * arm.y;
+  }
+  return m;
+}
+
+/// `lining`: or null.
+void add_vertices(BlockSet& b, const BlockPolygon& polygon, const Lining* lining, double young,
+                  const Moments& m, const NodeVectors& g) {
   const Id block = static_cast<Id>(b.area.size());
   double smallest_edge = std::numeric_limits<double>::infinity(), radius = 0.0;
   for (std::size_t r = 0; r < polygon.rings.size(); ++r) {
@@ -82,7 +122,9 @@ void add_vertices(BlockSet& b, const BlockPolygon& polygon, double young, const 
       b.edge_joint.push_back(polygon.joint[r][i]);
       b.edge_table.push_back(polygon.table.empty() ? none : polygon.table[r][i]);
       b.edge_length.push_back(norm(after - p));
-      b.compliance.push_back(height_over(polygon.rings[0], p, after - p) / young);
+      const double height = lining != nullptr ? lining->drawn_thickness()
+                                              : height_over(polygon.rings[0], p, after - p);
+      b.compliance.push_back(height / young);
       b.corner.push_back(interior_angle(before, p, after));
       // The weight of a corner that hardly turns would jump with the rounding of its angle.
       const double turns = 1.0 - b.corner.back() / std::numbers::pi, hardly = 1e-3;
@@ -131,6 +173,20 @@ void add_modes(BlockSet& b, const Moments& m, std::size_t i) {
                         b.lame_mu[i], b.thickness});
 }
 
+/// The mesh of a lining: two triangles for each piece.
+void add_strip(Meshes& meshes, const BlockPolygon& lining, Vec2 centroid) {
+  const StripSections s = sections_of(lining);
+  std::vector<Vec2> node = all_corners(lining);
+  for (Vec2& p : node) p -= centroid;
+  std::vector<std::array<std::uint32_t, 3>> triangle;
+  for (std::uint32_t p = 0; p < s.pieces(); ++p) {
+    const auto [a, b, c, d] = s.corners(p);
+    triangle.push_back({a, b, c});
+    triangle.push_back({a, c, d});
+  }
+  add_mesh(meshes, {node, triangle, corner_areas(lining)});
+}
+
 /// How the last block deforms beside its uniform strain.
 void add_deformation(BlockSet& b, const Model& model, const BlockPolygon& polygon, const Moments& m,
                      const ZoneSizes& sizes) {
@@ -140,6 +196,7 @@ void add_deformation(BlockSet& b, const Model& model, const BlockPolygon& polygo
     add_no_modes(b.bending);
   }
   if (!may_be_meshed(model, polygon)) return add_no_mesh(b.meshes);
+  if (polygon.lining != none) return add_strip(b.meshes, polygon, m.centroid);
   Mesh mesh = mesh_polygon(polygon.rings, sizes.of(polygon));
   for (Vec2& node : mesh.nodes) node -= m.centroid;
   add_mesh(b.meshes, {mesh.nodes, mesh.triangles});
@@ -178,6 +235,7 @@ namespace {
 BlockDeformation deformation_of(const Model& model, const BlockPolygon& block) {
   if (model.contact.model != ContactModel::faces || block.fixed || block.material == none)
     return BlockDeformation::uniform;
+  if (block.lining != none) return BlockDeformation::zones;
   const Material& material = model.materials[static_cast<std::size_t>(block.material)];
   if (material.deformation != BlockDeformation::automatic) return material.deformation;
   if (material.yield || material.foliation) return BlockDeformation::zones;
@@ -195,6 +253,13 @@ bool may_bend(const Model& model, const BlockPolygon& block) {
   return deformation_of(model, block) == BlockDeformation::corners;
 }
 
+StripSections sections_of(const BlockSet& b, std::size_t i) {
+  const Id first = b.vertex_begin[i], all = b.vertex_begin[i + 1] - first;
+  Id ring = 1;
+  for (Id v = b.next[first]; v != first; v = b.next[v]) ++ring;
+  return {ring < all ? ring : all / 2, ring < all};
+}
+
 BlockSet build_blocks(const Model& model, const PolygonSet& polygons) {
   BlockSet b;
   b.origin = polygons.origin;
@@ -205,15 +270,16 @@ BlockSet build_blocks(const Model& model, const PolygonSet& polygons) {
   const ZoneSizes sizes(model, polygons);
   b.vertex_begin.push_back(0);
   for (const BlockPolygon& polygon : polygons.blocks) {
-    const Moments m = moments(polygon.rings);
+    const Lining* const lining = lining_of(model, polygon);
+    const Moments m = moments_of(polygon);
     const Material& material = model.materials[static_cast<std::size_t>(polygon.material)];
     const bool matched = model.solver.mass == MassKind::matched;
     const Cover cover = matched ? matched_cover(m) : covering_cover(polygon.rings[0], m.centroid);
     const NodeVectors g = gradients(cover);
     const double volume = m.area * model.thickness;
-    const double mass = material.density * volume;
+    const double mass = material.density * volume * (lining != nullptr ? lining->solidity() : 1.0);
     const Lame elastic = lame(material, model.plane);
-    add_vertices(b, polygon, material.young, m, g);
+    add_vertices(b, polygon, lining, material.young, m, g);
     add_triangles(b, polygon);
     for (std::size_t k = 0; k < nodes_per_block; ++k) {
       b.grad_x[k].push_back(g[k].x);
@@ -235,11 +301,16 @@ BlockSet build_blocks(const Model& model, const PolygonSet& polygons) {
     b.damping.push_back(material.damping);
     b.centroid_x.push_back(m.centroid.x);
     b.centroid_y.push_back(m.centroid.y);
-    b.inradius.push_back(half_width(polygon.rings[0]));
+    b.inradius.push_back(lining != nullptr ? 0.5 * lining->drawn_thickness()
+                                           : half_width(polygon.rings[0]));
     b.material.push_back(polygon.material);
     if (polygon.opening != none) {
       b.opening.resize(polygons.blocks.size(), none);
       b.opening[b.area.size() - 1] = polygon.opening;
+    }
+    if (lining != nullptr) {
+      b.lining.resize(polygons.blocks.size(), none);
+      b.lining[b.area.size() - 1] = polygon.lining;
     }
     if (!polygon.name.empty()) b.names[static_cast<Id>(b.area.size() - 1)] = polygon.name;
     b.vertex_begin.push_back(static_cast<Id>(b.vertex_block.size()));

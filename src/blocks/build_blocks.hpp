@@ -3,10 +3,14 @@
 
 #include "blocks/block_set.hpp"
 #include "blocks/state.hpp"
+#include "cutting/linings.hpp"
 #include "cutting/polygon_set.hpp"
 #include "model/model.hpp"
 
 namespace edda {
+
+/// The sections of block i, a lining; corners are numbered from its first vertex.
+StripSections sections_of(const BlockSet& blocks, std::size_t i);
 
 /// Whether a block of the model is meshed (blocks/meshes.hpp).
 bool may_be_meshed(const Model& model, const BlockPolygon& block);

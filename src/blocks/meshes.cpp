@@ -65,13 +65,14 @@ void add_mesh(Meshes& m, const BlockMesh& mesh) {
   const std::size_t first = m.share.size();
   m.share.resize(first + mesh.node.size(), 0.0);
   double area = 0.0;
+  for (std::size_t j = 0; j < mesh.area.size(); ++j) m.share[first + j] = mesh.area[j];
   for (const std::array<std::uint32_t, 3>& t : mesh.triangle) {
     const Vec2 a = mesh.node[t[0]], b = mesh.node[t[1]], c = mesh.node[t[2]];
     const double twice = cross(b - a, c - a);
     area += 0.5 * twice;
     std::array<std::uint32_t, 3> zone;
     for (std::size_t k = 0; k < 3; ++k) {
-      m.share[first + t[k]] += twice / 6.0;
+      if (mesh.area.empty()) m.share[first + t[k]] += twice / 6.0;
       zone[k] = static_cast<std::uint32_t>(first) + t[k];
     }
     m.zone.push_back(zone);

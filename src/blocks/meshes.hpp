@@ -87,6 +87,8 @@ InZone in_its_zone(const Meshes& meshes, std::size_t i, std::span<const Vec2> no
 struct BlockMesh {
   std::span<const Vec2> node;  ///< first the corners of the block, m
   std::span<const std::array<std::uint32_t, 3>> triangle;
+  std::span<const double>
+      area{};  ///< of its nodes, m2; empty: a third of each triangle at a corner
 };
 
 /// Where the nodes of the mesh of block i were at the start, from its centroid, m.

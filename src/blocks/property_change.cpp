@@ -38,18 +38,19 @@ std::vector<std::uint8_t> change_properties(BlockSet& b, const Model& model,
   std::vector<std::uint8_t> changed(b.vertex_count(), 0);
   if (change.material != none) {
     for (std::size_t i = 0; i < b.size(); ++i) {
-      if (b.material[i] != change.material) continue;
+      if (b.material[i] != change.material || b.is_lining(i)) continue;
       if (!reach.has(Vec2{b.centroid_x[i], b.centroid_y[i]} + b.origin)) continue;
       b.material[i] = change.row;
       std::fill(changed.begin() + b.vertex_begin[i], changed.begin() + b.vertex_begin[i + 1],
                 std::uint8_t{1});
     }
   } else {
+    if (b.unnamed_joint.empty()) b.unnamed_joint.assign(b.vertex_count(), model.contact.joint);
     for (Id e = 0; e < b.vertex_count(); ++e) {
-      const Index joint = b.edge_joint[e] != none ? b.edge_joint[e] : model.contact.joint;
+      Index& joint = b.edge_joint[e] != none ? b.edge_joint[e] : b.unnamed_joint[e];
       if (joint != change.joints) continue;
       if (!reach.has(0.5 * (b.vertex(e) + b.vertex(b.next[e])) + b.origin)) continue;
-      b.edge_joint[e] = change.row;
+      joint = change.row;
       changed[e] = 1;
     }
   }

@@ -54,13 +54,14 @@ void fit(FaceSet& c, FaceStates& states, const BlockSet& b, const Face& face, st
 }  // namespace
 
 void bond_faces(FaceSet& c, FaceStates& states, const BlockSet& b, const Pose& pose,
-                const LawTable& laws) {
+                const LawTable& laws, const std::vector<std::uint8_t>* of_blocks) {
   bool changes = false;
   for (std::size_t k = 0; k < c.size(); ++k) {
     const Id e = c.edge[k], f = c.facing[k];
-    const std::uint16_t drawn =
-        laws.resolve(b.edge_joint[e], b.edge_joint[f], b.material[b.vertex_block[e]],
-                     b.material[b.vertex_block[f]]);
+    if (of_blocks != nullptr && (*of_blocks)[b.vertex_block[e]] == 0 &&
+        (*of_blocks)[b.vertex_block[f]] == 0)
+      continue;
+    const std::uint16_t drawn = law_between(laws, b, e, f, true);
     const Law& law = laws.rows[drawn];
     const bool weakens = law.type == LawType::slip_weakening, has_bond = may_weaken(law);
     const bool other = drawn != c.law[k];

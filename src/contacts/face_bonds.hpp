@@ -20,9 +20,9 @@ bool touch_as_drawn(const FaceSet& faces, const BlockSet& blocks, const Pose& po
 /// cohesion, tensile strength, glue or a peak friction angle above the residual one. Those with
 /// tensile strength or glue carry tension. A face is bonded as a whole and breaks as a whole. What
 /// drawing leaves is taken back by the locked closure. states: of the faces, which have never
-/// carried load.
+/// carried load. of_blocks: [nb] 1: of the faces of these blocks alone; null: of all.
 void bond_faces(FaceSet& faces, FaceStates& states, const BlockSet& blocks, const Pose& pose,
-                const LawTable& laws);
+                const LawTable& laws, const std::vector<std::uint8_t>* of_blocks = nullptr);
 
 /// Whether two edges lie against each other as drawn along the whole overlap, within the accuracy
 /// of drawings, a thousandth of it.

@@ -18,15 +18,6 @@ struct Before {
   double stiffness, shear_stiffness;
 };
 
-/// The law of face k as drawn, or of edges that have met since.
-std::uint16_t law_of(const FaceSet& c, const BlockSet& b, const LawTable& laws, bool drawn,
-                     std::size_t k) {
-  const Id e = c.edge[k], f = c.facing[k];
-  const Index of_e = b.material[b.vertex_block[e]], of_f = b.material[b.vertex_block[f]];
-  return drawn ? laws.resolve(b.edge_joint[e], b.edge_joint[f], of_e, of_f)
-               : laws.resolve_met(b.edge_joint[e], b.edge_joint[f], of_e, of_f);
-}
-
 /// Whether the face has lost nothing of the strength of its law.
 bool is_whole(const FaceSet& c, const Law& law, std::size_t k) {
   if (c.is(FaceFlag::opened, k) || c.is(FaceFlag::slipped, k)) return false;
@@ -82,8 +73,8 @@ void change_laws(FaceSet& c, FaceStates& states, const BlockSet& old, const Bloc
   std::vector<Before> change;
   for (std::size_t k = 0; k < c.size(); ++k) {
     if (changed[c.edge[k]] == 0 && changed[c.facing[k]] == 0) continue;
-    const bool drawn = c.law[k] == law_of(c, old, laws, true, k);
-    const std::uint16_t law = law_of(c, b, laws, drawn, k);
+    const bool drawn = c.law[k] == law_between(laws, old, c.edge[k], c.facing[k], true);
+    const std::uint16_t law = law_between(laws, b, c.edge[k], c.facing[k], drawn);
     if (law == c.law[k]) continue;
     change.push_back({k, c.law[k], c.stiffness[k], c.shear_stiffness[k]});
     c.law[k] = law;

@@ -45,11 +45,18 @@ void add_to_joint(JointStress& joint, const FaceSet& c, const RequiredForces& re
   if (normal >= -tension && size > (1.0 + rounding) * strength) joint.over += length;
 }
 
+/// Of an edge whose faces are without force where they touch, whatever was on the other side.
+constexpr double never_pressed = -1e100;
+
 void lock_pressures(FaceSet& c, const BlockSet& b, const FaceTraction& traction) {
   const std::size_t nv = b.vertex_count();
   c.locked_start.resize(nv);
   c.locked_end.resize(nv);
   for (std::size_t e = 0; e < nv; ++e) {
+    if (b.is_lining(b.vertex_block[e])) {
+      c.locked_start[e] = c.locked_end[e] = never_pressed;
+      continue;
+    }
     const EndForces on = traction(static_cast<Id>(e), 0.0, 1.0);
     const Vec2 n = outward_normal(unit(b.vertex(b.next[e]) - b.vertex(e)));
     const double from = -dot(on.at_from, n), to = -dot(on.at_to, n);
@@ -80,6 +87,8 @@ std::vector<JointStress> preload_faces(FaceSet& c, FaceStates& states, const Blo
   std::vector<RequiredForces> required;
   lock_pressures(c, b, traction);
   for (std::size_t k = 0; k < c.size(); ++k) {
+    if (b.is_lining(b.vertex_block[c.edge[k]]) || b.is_lining(b.vertex_block[c.facing[k]]))
+      continue;
     const Face drawn = face_at(c, b, pose.x, pose.y, k);
     // Edges that meet at a corner only, as at a crossing of two joints at a few degrees, have a
     // void between them.

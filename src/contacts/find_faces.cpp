@@ -127,8 +127,7 @@ void begin_face(FaceSet& next, std::size_t k, const BlockSet& b, const LawTable&
   const Id e = next.edge[k], f = next.facing[k];
   next.clear_row(k);
   next.flags[k] = 0;
-  next.law[k] = laws.resolve_met(b.edge_joint[e], b.edge_joint[f], b.material[b.vertex_block[e]],
-                                 b.material[b.vertex_block[f]]);
+  next.law[k] = law_between(laws, b, e, f, false);
   set_residual_strength(next, laws, k);
   // Contacts that form later have no tensile strength.
   next.set(FaceFlag::carries_tension, k, false);

@@ -115,10 +115,12 @@ double of_penalty(double at_end, double over_young, const FaceSides& sides) {
 }  // namespace
 
 FaceSides sides_of(const BlockSet& b, Id edge, Id facing) {
-  const bool edge_fixed = b.fixed[b.vertex_block[edge]] != 0,
-             facing_fixed = b.fixed[b.vertex_block[facing]] != 0;
-  const double of_edge = b.compliance[facing_fixed || !edge_fixed ? edge : facing],
-               of_facing = b.compliance[edge_fixed || !facing_fixed ? facing : edge];
+  const auto counts = [&](Id e) {
+    const Id i = b.vertex_block[e];
+    return b.fixed[i] == 0 && !b.is_lining(i);
+  };
+  const double of_edge = b.compliance[counts(edge) || !counts(facing) ? edge : facing],
+               of_facing = b.compliance[counts(facing) || !counts(edge) ? facing : edge];
   return {std::min(b.edge_length[edge], b.edge_length[facing]),
           std::min(0.5 * (of_edge + of_facing), most_of_smaller * std::min(of_edge, of_facing))};
 }
@@ -171,6 +173,22 @@ std::uint16_t LawTable::resolve_met(Index edge, Index facing, Index edge_materia
     return joint != none && rows[static_cast<std::size_t>(joint)].glued ? none : joint;
   };
   return resolve(unglued(edge), unglued(facing), edge_material, facing_material);
+}
+
+std::uint16_t law_between(const LawTable& laws, const BlockSet& b, Id edge, Id facing, bool drawn) {
+  const Id i = b.vertex_block[edge], j = b.vertex_block[facing];
+  Index of_edge = b.edge_joint[edge], of_facing = b.edge_joint[facing];
+  if (b.is_lining(i) != b.is_lining(j)) {
+    const Index own = b.is_lining(i) ? of_edge : of_facing;
+    const bool holds = own != none && (drawn || !laws.rows[static_cast<std::size_t>(own)].glued);
+    if (holds) return static_cast<std::uint16_t>(own);
+  }
+  if (of_edge == none && of_facing == none && !b.unnamed_joint.empty()) {
+    of_edge = b.unnamed_joint[edge];
+    of_facing = b.unnamed_joint[facing];
+  }
+  return drawn ? laws.resolve(of_edge, of_facing, b.material[i], b.material[j])
+               : laws.resolve_met(of_edge, of_facing, b.material[i], b.material[j]);
 }
 
 }  // namespace edda

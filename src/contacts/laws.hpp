@@ -48,10 +48,11 @@ inline bool may_weaken(const Law& law) {
 
 /// The two edges of a face, as far as its penalty stiffness depends on them.
 struct FaceSides {
-  double shorter;     ///< length of the shorter one, m
-  double compliance;  ///< mean of BlockSet::compliance of the two, where a fixed block counts as
-                      ///< the other, but four times the smaller one at most, so that a small block
-                      ///< between large ones does not sink into them, m/Pa
+  double shorter;  ///< length of the shorter one, m
+  double
+      compliance;  ///< mean of BlockSet::compliance of the two, where a fixed block and a
+                   ///< lining, which is thin, count as the other, but four times the smaller one at
+                   ///< most, so that a small block between large ones does not sink into them, m/Pa
 };
 FaceSides sides_of(const BlockSet& blocks, Id edge, Id facing);
 /// The same against a much larger block, with the largest compliance that sides_of() allows.
@@ -106,5 +107,10 @@ struct LawTable {
 };
 
 LawTable build_laws(const Model& model);
+
+/// Law of a face between two edges that lie against each other as drawn, or have met since: that
+/// which a lining names for itself, whatever the other names; else resolve() or resolve_met().
+std::uint16_t law_between(const LawTable& laws, const BlockSet& blocks, Id edge, Id facing,
+                          bool drawn);
 
 }  // namespace edda

@@ -27,6 +27,7 @@ struct BlockPolygon {
   std::string name;               ///< of a [[block]], else empty
   Where where;                    ///< the table of the model that it comes from
   Index opening = none;           ///< the opening it lies in, for rock that is excavated
+  Index lining = none;            ///< row of Model::linings, if it is one (cutting/linings.hpp)
   bool slow = false;  ///< a sliver that [quality] could not merge: its inertia is raised so that it
                       ///< does not shorten the step
 };

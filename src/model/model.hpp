@@ -294,6 +294,32 @@ struct BoltPattern {
   Where where;
 };
 
+/// [[lining]]: shotcrete, concrete or steel sets, a chain of beams along a line. Per metre of
+/// thickness of the model, but area and inertia, which are those of one steel set.
+struct Lining {
+  std::string name;
+  std::string opening;                         ///< on whose outline it is, or
+  std::string on;                              ///< the lining on whose inner side it is, or
+  std::optional<double> from_angle, to_angle;  ///< degrees; part of it; both empty: all of it
+  std::vector<Vec2> along;                     ///< a line on whose left it is
+  Index material = none;
+  std::optional<double> thickness;      ///< m
+  std::optional<double> area, inertia;  ///< m2 and m4, of a steel set
+  double spacing = 1.0;                 ///< m, out of plane, of steel sets
+  // Strength; empty: it stays elastic.
+  std::optional<double> compressive_strength;  ///< Pa
+  std::optional<double> tensile_strength;      ///< Pa; empty: 0, of a steel set as in compression
+  std::optional<double> plastic_moment;        ///< N m, of a steel set; empty: of the solid section
+  std::optional<double> size;                  ///< m, of its pieces; empty: "auto"
+  Index interface = none;                      ///< law of its faces
+  Where where;
+  /// Thickness of the strip that stands for it: of steel sets that of a solid section with their
+  /// area and inertia, m.
+  double drawn_thickness() const;
+  /// Its mass over that of the solid strip.
+  double solidity() const;
+};
+
 struct Monitor {
   std::string name;
   Vec2 point;
@@ -358,6 +384,7 @@ struct Model {
   std::vector<Shaking> shakings;
   std::vector<Bolt> bolts;
   std::vector<BoltPattern> bolt_patterns;
+  std::vector<Lining> linings;
   std::vector<Monitor> monitors;
   std::vector<Convergence> convergences;
   std::vector<Measurement> measurements;

@@ -86,7 +86,6 @@ struct Ramp {
   Index target = none;               ///< row of loads, waters or boundaries
 };
 
-/// [[stage]]: a part of the run, until a time, until equilibrium, or until collapse under a ramp.
 /// Joints or rock that have other properties from the start of a stage on, all of them or those in
 /// a part of the model.
 struct PropertyChange {
@@ -100,6 +99,7 @@ struct PropertyChange {
   Where where;
 };
 
+/// [[stage]]: a part of the run, until a time, until equilibrium, or until collapse under a ramp.
 struct Stage {
   std::string name;
   StageEnd until = StageEnd::time;

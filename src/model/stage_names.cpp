@@ -40,6 +40,10 @@ std::vector<Index> bolts_called(const Model& model, const std::vector<std::strin
   return rows;
 }
 
+std::vector<Index> linings_called(const Model& model, const std::vector<std::string>& names) {
+  return rows_of(model.linings, names);
+}
+
 std::optional<std::size_t> stage_called(const Model& model, const std::string& name) {
   for (std::size_t q = 0; q < model.stages.size(); ++q) {
     if (model.stages[q].name == name || std::to_string(q + 1) == name) return q;

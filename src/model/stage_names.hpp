@@ -25,12 +25,15 @@ NamedRows rows_called(const Model& model, const std::vector<std::string>& names)
 /// Rows in Model::bolts, followed by the bolts of the patterns in their order.
 std::vector<Index> bolts_called(const Model& model, const std::vector<std::string>& names);
 
+/// Rows in Model::linings.
+std::vector<Index> linings_called(const Model& model, const std::vector<std::string>& names);
+
 /// Whether the element of this name acts from the start of the run. It does unless a stage after
 /// the first activates it before any deactivates it. An element without a name does.
 bool acts_at_first(const Model& model, const std::string& name);
 
-/// Whether bolts of this name are there from the start of the run, which holds unless a stage
-/// installs them.
+/// Whether bolts or linings of this name are there from the start of the run, which holds unless a
+/// stage installs them.
 bool installed_at_first(const Model& model, const std::string& name);
 
 /// Row of the stage that has this name or number.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "blocks/build_blocks.hpp"
 #include "results/csv.hpp"
 
 namespace edda {
@@ -105,6 +106,56 @@ std::string bolts_rows(const Simulation& sim) {
       csv.add(sim.motion.state.time).add(row.name).add(b.distance[k]).add(place.x).add(place.y);
       csv.add(axial / row.share).add(bond / row.share).add(dowel / row.share).add(used);
       csv.add(int{near(b.bars.yielded)}).add(int{near(b.bars.broken)}).end();
+    }
+  }
+  return csv.text();
+}
+
+namespace {
+
+/// Moment of a section at the end of piece p of block i: the mean of the pieces on both sides. The
+/// shear at the wall acts at half the thickness from the middle, and its couples at the sections
+/// let the moment jump there.
+double moment_at(const Simulation& sim, std::size_t i, std::uint32_t p, std::size_t end) {
+  const ZoneModel& model = sim.scene->zones;
+  const auto of = [&](std::uint32_t pair, std::size_t at) {
+    return sim.motion.zones.piece[model.piece_of_pair[pair]].forces.moment[at];
+  };
+  const std::uint32_t first = model.pair_begin[i], last = model.pair_begin[i + 1] - 1;
+  const bool at_edge = p == (end == 0 ? first : last);
+  if (at_edge && !sections_of(sim.scene->blocks, i).closed) return of(p, end);
+  const std::uint32_t beside = at_edge ? (end == 0 ? last : first) : end == 0 ? p - 1 : p + 1;
+  return 0.5 * (of(p, end) + of(beside, 1 - end));
+}
+
+}  // namespace
+
+std::string linings_rows(const Simulation& sim) {
+  const BlockSet& b = sim.scene->blocks;
+  const ZoneModel& model = sim.scene->zones;
+  const Zones& zones = sim.motion.zones;
+  Csv csv;
+  for (std::size_t i = 0; i < b.size(); ++i) {
+    if (!b.is_lining(i) || sim.motion.state.alive[i] == 0) continue;
+    const std::string_view name = b.name(i);
+    const std::string lining = name.empty() ? std::to_string(b.lining[i]) : std::string(name);
+    double distance = 0.0;
+    for (std::uint32_t p = model.pair_begin[i]; p < model.pair_begin[i + 1]; ++p) {
+      const std::uint32_t q = model.piece_of_pair[p];
+      const LiningPiece& piece = model.piece[q];
+      const BeamState& state = zones.piece[q];
+      const BeamCorners x = corners_of_piece(b, model, sim.motion.state, p);
+      for (const std::size_t end : {0u, 1u}) {
+        const Vec2 at = b.origin + 0.5 * (end == 0 ? x[0] + x[3] : x[1] + x[2]);
+        if (end == 1) distance += state.length;
+        csv.add(sim.motion.state.time).add(lining).add(int(p - model.pair_begin[i]));
+        csv.add(distance).add(at.x).add(at.y);
+        const double moment = moment_at(sim, i, p, end);
+        csv.add(0.0 - state.forces.axial).add(moment);
+        csv.add(state.forces.shear(state.length));
+        csv.add(utilisation(model.strength[piece.strength], state.forces.axial, moment));
+        csv.add(state.hinge[end]).end();
+      }
     }
   }
   return csv.text();

@@ -1,4 +1,4 @@
-// Forces of boundaries and bolts, as rows of tables.
+// Forces of boundaries, bolts and linings, as rows of tables.
 #pragma once
 
 #include <string>
@@ -21,5 +21,8 @@ std::string reactions_row(const Simulation& sim, const Instant& at);
 /// Rows of bolts.csv (ResultFile::bolts), one per node of each bolt. Forces are those of one bolt,
 /// not per metre of thickness.
 std::string bolts_rows(const Simulation& sim);
+
+/// Rows of linings.csv (ResultFile::linings), one per end of each piece.
+std::string linings_rows(const Simulation& sim);
 
 }  // namespace edda

@@ -239,7 +239,7 @@ void warn_of_slivers(const Simulation& sim, std::vector<std::string>& warnings) 
   if (edges.empty()) return;
   const auto middle = edges.begin() + static_cast<std::ptrdiff_t>(edges.size() / 2);
   std::nth_element(edges.begin(), middle, edges.end());
-  if (!(report.smallest_edge < sliver * *middle)) return;
+  if (!(report.smallest_edge > 0.0 && report.smallest_edge < sliver * *middle)) return;
   warnings.push_back(
       fmt::format("a very short edge of {:.3g} m at {} (half of all edges are longer than {:.3g} "
                   "m) causes a small time step: move a joint a little, or raise domain.snap",

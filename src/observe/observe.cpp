@@ -200,7 +200,7 @@ void record_zones(const Simulation& sim, Picture& p) {
       const ZoneState& state = zones.state[z];
       const double slip = sim.scene->zones.shape[z].width * state.plastic_shear;
       ZoneRecord r{xx, yy, zz, xy, state.plastic_shear + state.slipped, zones.yielding[z]};
-      if (has_strength(rock))
+      if (has_strength(rock) && !b.is_lining(i))
         r.strength_factor =
             std::min(strength_factor(rock, slip, state.stress), largest_strength_factor);
       if (!zones.pore.empty()) r.pore_pressure = zones.pore[z];

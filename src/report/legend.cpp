@@ -303,6 +303,12 @@ void Legend::draw_key(Canvas& canvas, const LegendKey& key, double left, double 
     case Sign::stress:
       draw_stress_rows(canvas, rows, value);
       break;
+    case Sign::diagram:
+      rows.row(value, [&](Vec2 a, Vec2 b) {
+        canvas.colour(ink::bolt);
+        canvas.line(a, b, 1.2);
+      });
+      break;
     case Sign::joint:
       rows.line("slip or open", ink::joint, joint_width);
       break;

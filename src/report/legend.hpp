@@ -13,7 +13,7 @@ namespace edda {
 
 /// A sample line with its meaning.
 struct LegendKey {
-  enum class Sign { vector, force, pressure, stress, bolt, bolt_load, joint, cracks };
+  enum class Sign { vector, force, pressure, stress, bolt, bolt_load, joint, cracks, diagram };
   Sign sign = Sign::vector;
   std::string name;  ///< "velocity"
   std::string unit;  ///< "m/s"

@@ -17,7 +17,7 @@ namespace {
 
 /// The quantities that the layers draw as lines, with one scale for all drawings.
 struct Scales {
-  ArrowScale vectors, forces, pressures, stresses, bolts;
+  ArrowScale vectors, forces, pressures, stresses, bolts, linings;
 };
 
 Scales scales_of(const std::vector<PlotScene>& scenes, const PlotOptions& options) {
@@ -29,6 +29,7 @@ Scales scales_of(const std::vector<PlotScene>& scenes, const PlotOptions& option
   }
   if (options.principal) scales.stresses = stress_scale(scenes, options.least_stress);
   if (options.bolt_forces) scales.bolts = bolt_scale(scenes);
+  if (!options.lining.empty()) scales.linings = lining_scale(scenes);
   return scales;
 }
 
@@ -87,6 +88,10 @@ std::vector<LegendKey> keys_of(std::span<const Snapshot> shots, const PlotOption
     keys.push_back({Sign::bolt_load, "force of bolts", "N", scales.bolts, any_yielded(shots)});
   } else if (any_yielded(shots)) {
     keys.push_back({Sign::bolt, "bolts", "", {}, true});
+  }
+  if (!options.lining.empty()) {
+    keys.push_back({Sign::diagram, options.lining + " of linings",
+                    options.lining == "moment" ? "N m" : "N", for_legend(scales.linings, longest)});
   }
   return keys;
 }
@@ -191,6 +196,7 @@ void draw_scene(Canvas& canvas, const PlotScene& s, const PlotOptions& options,
     draw_pressures(canvas, s, scales.pressures);
     draw_forces(canvas, s, scales.forces);
   }
+  if (!options.lining.empty()) draw_linings(canvas, s, scales.linings);
   draw_bolts(canvas, s, options, scales.bolts);
   if (options.marks) draw_marks(canvas, s, options);
   cairo_restore(canvas.cr());

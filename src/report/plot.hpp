@@ -35,6 +35,12 @@ struct BoltChain {
   bool yielded = false, ruptured = false;  ///< anywhere
 };
 
+/// A force along a lining at the time of a frame: two values for each piece, at its ends.
+struct LiningDiagram {
+  std::vector<Vec2> points;   ///< m, along the lining, the wall on the right
+  std::vector<double> value;  ///< SI
+};
+
 /// The data of one of the drawings of a picture.
 struct Snapshot {
   Grid blocks;
@@ -42,6 +48,7 @@ struct Snapshot {
   ShownField field{};
   /// As recorded; empty where there are no records.
   std::optional<std::vector<BoltChain>> bolts{};
+  std::vector<LiningDiagram> linings{};
   std::string heading{};  ///< above the drawing, where there are several
 };
 
@@ -60,6 +67,7 @@ struct PlotOptions {
   double least_stress = 0.0;  ///< Pa; where none is larger they are rounding and are not drawn
   bool cracks = false;        ///< faces that have broken, in tension and in shear
   bool bolt_forces = false;   ///< bolts as wide as their axial force
+  std::string lining;         ///< "thrust", "moment" or "shear" along linings; empty: none
   bool outlines = true;       ///< of the blocks
   bool marks = true;          ///< monitors and convergence lines
   std::optional<std::pair<double, double>> range{};  ///< of the colours, SI units

@@ -42,6 +42,9 @@ bool move_with(Snapshot& shot, Vec2 start) {
       for (Vec2& p : bolt.points) p = p - moved;
     }
   }
+  for (LiningDiagram& lining : shot.linings) {
+    for (Vec2& p : lining.points) p = p - moved;
+  }
   return true;
 }
 

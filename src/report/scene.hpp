@@ -103,6 +103,10 @@ ArrowScale bolt_scale(const std::vector<PlotScene>& scenes);
 void draw_bolts(Canvas& canvas, const PlotScene& scene, const PlotOptions& options,
                 const ArrowScale& scale);
 
+/// Thrust, moment or shear of linings, across them; positive values on the side of the wall.
+ArrowScale lining_scale(const std::vector<PlotScene>& scenes);
+void draw_linings(Canvas& canvas, const PlotScene& scene, const ArrowScale& scale);
+
 /// Monitors and convergence lines, with their names beside them.
 void draw_marks(Canvas& canvas, const PlotScene& scene, const PlotOptions& options);
 

@@ -265,7 +265,7 @@ constexpr std::array cut{
       "trace.0; empty for blocks that are given as such."},
 };
 
-constexpr std::array<ResultTable, 21> tables{{
+constexpr std::array<ResultTable, 22> tables{{
     {"history.csv",
      "A row at the start, at each multiple of output.history_every and at the end of each stage; "
      "stages until equilibrium have more (output.settling).",
@@ -273,6 +273,9 @@ constexpr std::array<ResultTable, 21> tables{{
     {"reactions.csv", "A row for each row of history.csv, of models with boundaries.", reactions},
     {"bolts.csv", "A row for each node of each installed bolt in each frame, of models with bolts.",
      bolts},
+    {"linings.csv",
+     "Two rows for each piece of each installed lining in each frame, of models with linings.",
+     linings},
     {"stages.csv", "A row for each stage that has ended, of models with stages.", stages},
     {"curve.csv", "A row for each increment of a ramp, of models with stages that have one.",
      curve},

@@ -29,6 +29,7 @@ enum class ResultFile {
   history,
   reactions,
   bolts,
+  linings,
   stages,
   curve,
   stage_joints,

@@ -135,6 +135,25 @@ constexpr std::array bolts{
     C{"ruptured", "1", "1: the steel beside the node has ruptured; 0: it has not."},
 };
 
+constexpr std::array linings{
+    time_column,
+    C{"lining", "text", "Name of the lining, or its number in the model, from 0."},
+    C{"piece", "1", "Number of the piece along the lining, from 0; each has a row for either end."},
+    C{"distance", "m", "Distance of that end from the start of the lining, along it."},
+    C{"x", "m", "Coordinate x of the middle of the section now."},
+    C{"y", "m", "Coordinate y of the middle of the section now."},
+    C{"thrust", "N", "Thrust of the thickness of the model, positive in compression."},
+    C{"moment", "N m",
+      "Moment of the thickness of the model, positive where it puts the side at the wall in "
+      "tension; the mean of the two pieces that meet in the section."},
+    C{"shear", "N", "Shear force of the thickness of the model: slope of the moment."},
+    C{"utilisation", "1",
+      "By what thrust and moment would have to be divided to be at the strength of the section; 0 "
+      "without a strength."},
+    C{"hinge_rotation", "rad",
+      "Plastic rotation of that end so far, positive where it opens the side at the wall."},
+};
+
 constexpr std::array stages{
     C{"stage", "1", "Number of the stage, from 1."},
     C{"name", "text", "Name of the stage; empty where it has none."},

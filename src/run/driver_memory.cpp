@@ -38,6 +38,7 @@ std::string first_states(const Model& model) {
   add(model.shakings, "shaking", acts);
   add(model.bolts, "bolt", there);
   add(model.bolt_patterns, "bolt_pattern", there);
+  add(model.linings, "lining", there);
   add(model.openings, "opening", [](const Opening& o) { return o.staged; });
   return text;
 }
@@ -226,6 +227,7 @@ void Driver::list(Archive& a) {
   a("files.history_bytes", files.history_bytes);
   a("files.reactions_bytes", files.reactions_bytes);
   a("files.bolts_bytes", files.bolts_bytes);
+  if (!sim_.scene->model.linings.empty()) a("files.linings_bytes", files.linings_bytes);
   a("files.frame_times", files.frame_times);
   // For each file its name, a line break, and its hash.
   std::string inputs;

@@ -18,18 +18,19 @@ void Driver::begin_stage(std::size_t index) {
   stage_ = index;
   stage_start_ = sim_.motion.state.time;
   stage_steps_ = sim_.motion.state.steps;
-  judge_ = Judge(sim_);
   seek_equilibrium(sim_, stage());
   ramp_ = {};
   ramp_.since = stage_steps_;
   stage_longest_ = stage().longest();
   times_.end_at(stage_start_ + stage_longest_);
-  if (sim_.scene->model.stages.empty()) return;
-  if (const auto fault = enter_stage(sim_, plans_[index], index == 0)) {
-    end(Status::failed, stage_label(sim_.scene->model, stage_) + ": " + fault->problem);
+  if (!sim_.scene->model.stages.empty()) {
+    if (const auto fault = enter_stage(sim_, plans_[index], index == 0)) {
+      end(Status::failed, stage_label(sim_.scene->model, stage_) + ": " + fault->problem);
+    }
+    stage_longest_ = longest_of_stage();
+    times_.end_at(stage_start_ + stage_longest_);
   }
-  stage_longest_ = longest_of_stage();
-  times_.end_at(stage_start_ + stage_longest_);
+  judge_ = Judge(sim_);  // with what the stage has installed where it is now
 }
 
 /// A search for equilibrium has its own time: where masses are scaled, steps alone tell its length.

@@ -54,19 +54,28 @@ Trouble Recorder::begin(const Simulation& sim, const Gauges& gauges) {
     if (auto t = bolts_.open(path("bolts.csv"))) return t;
     if (auto t = bolts_.add(header(ResultFile::bolts))) return t;
   }
+  if (!sim.scene->model.linings.empty()) {
+    if (auto t = linings_.open(path("linings.csv"))) return t;
+    if (auto t = linings_.add(header(ResultFile::linings))) return t;
+  }
   frames_.emplace(folder_, sim.scene->blocks);
   return write_columns_csv(folder_, owners_);
 }
 
 RecorderMemory Recorder::memory() const {
-  return {history_.bytes(), reactions_.bytes(), bolts_.bytes(),
-          frames_ ? frames_->times() : std::vector<double>{}, inputs_};
+  return {history_.bytes(),
+          reactions_.bytes(),
+          bolts_.bytes(),
+          linings_.bytes(),
+          frames_ ? frames_->times() : std::vector<double>{},
+          inputs_};
 }
 
 Trouble Recorder::sync() {
   if (auto t = history_.sync()) return t;
   if (auto t = reactions_.sync()) return t;
   if (auto t = bolts_.sync()) return t;
+  if (auto t = linings_.sync()) return t;
   return frames_ ? frames_->write_series() : Trouble{};
 }
 
@@ -82,6 +91,9 @@ Trouble Recorder::resume(const Simulation& sim, const Gauges& gauges,
   }
   if (has_bolts(sim.scene->model)) {
     if (auto t = bolts_.reopen(path("bolts.csv"), memory.bolts_bytes)) return t;
+  }
+  if (!sim.scene->model.linings.empty()) {
+    if (auto t = linings_.reopen(path("linings.csv"), memory.linings_bytes)) return t;
   }
   frames_.emplace(folder_, sim.scene->blocks);
   frames_->go_on_after(memory.frame_times);
@@ -153,6 +165,9 @@ Trouble Recorder::frame(const Simulation& sim, Picture picture) {
   if (has_bolts(sim.scene->model)) {
     if (auto t = bolts_.add(bolts_rows(sim))) return t;
   }
+  if (!sim.scene->model.linings.empty()) {
+    if (auto t = linings_.add(linings_rows(sim))) return t;
+  }
   return frames_ ? frames_->add(std::move(picture)) : Trouble{};
 }
 
@@ -160,7 +175,7 @@ Trouble Recorder::tables(const Picture& picture) {
   if (!writes()) return {};
   Trouble first = history_.close();
   const auto also = [&](const Trouble& t) { first = first ? first : t; };
-  for (RowFile* file : {&reactions_, &bolts_}) also(file->close());
+  for (RowFile* file : {&reactions_, &bolts_, &linings_}) also(file->close());
   if (frames_) also(frames_->write_series());
   if (auto t = write_blocks_csv(path("blocks.csv"), picture.blocks)) return t;
   if (auto t = write_joints_csv(path("joints.csv"), picture.contacts)) return t;

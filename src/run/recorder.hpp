@@ -17,7 +17,7 @@ namespace edda {
 
 /// Lengths of the files of a run at a checkpoint.
 struct RecorderMemory {
-  std::uint64_t history_bytes = 0, reactions_bytes = 0, bolts_bytes = 0;
+  std::uint64_t history_bytes = 0, reactions_bytes = 0, bolts_bytes = 0, linings_bytes = 0;
   std::vector<double> frame_times;  ///< s
   std::vector<InputFile> inputs;
 };
@@ -60,7 +60,7 @@ class Recorder {
   std::vector<InputFile> inputs_;  ///< as they were when they were read
   ColumnOwners owners_;
   FolderLock lock_;
-  RowFile history_, reactions_, bolts_;
+  RowFile history_, reactions_, bolts_, linings_;
   std::optional<FrameSeries> frames_;
 };
 

@@ -21,6 +21,7 @@ namespace {
 template <class Archive>
 void list_zones(Archive& a, Zones& zones) {
   list_numbers(a, "zones.state", zones.state);
+  if (!zones.piece.empty()) list_numbers(a, "zones.piece", zones.piece);
   list_numbers(a, "zones.force", zones.force);
   list_numbers(a, "zones.stress", zones.stress);
   a("zones.yielding", zones.yielding);
@@ -209,6 +210,7 @@ void examine(Examiner& j, const Simulation& s, const FaceStates& faces) {
   const std::size_t many = s.scene->zones.shape.size(), pairs = s.scene->zones.pair.size();
   j.sized("zones.state", zones.state, many);
   j.sized("zones.force", zones.force, many);
+  j.sized("zones.piece", zones.piece, s.scene->zones.piece.size());
   j.sized("zones.stress", zones.stress, many);
   j.sized("zones.yielding", zones.yielding, many);
   for (const auto* of : {&zones.stored, &zones.stored_between, &zones.dissipated})

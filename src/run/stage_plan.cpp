@@ -24,6 +24,7 @@ StagePlan plan_of(const Model& model, const Stage& stage) {
                  rows_called(model, stage.deactivate),
                  rows_called(model, stage.activate),
                  bolts_called(model, stage.install),
+                 linings_called(model, stage.install),
                  {},
                  {}};
   for (const std::string& name : stage.excavate) plan.out.push_back(opening_called(model, name));
@@ -128,6 +129,7 @@ std::optional<Fault> enter_stage(Simulation& sim, const StagePlan& given, bool f
   excavate_openings(sim, plan);
   for (const PropertyChange& change : stage.change) change_properties(sim, change);
   switch_over(sim, plan.off, plan.on);
+  if (!plan.linings.empty()) install_linings(sim, plan.linings);
   // Bolts are installed in the rock that remains.
   if (!plan.bolts.empty()) {
     if (auto fault = install(sim, plan.bolts)) return fault;

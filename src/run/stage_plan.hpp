@@ -18,6 +18,7 @@ struct StagePlan {
   Stage stage;
   NamedRows off, on;                            ///< what it deactivates and activates
   std::vector<Index> bolts;                     ///< rows of all_bolts() that it installs
+  std::vector<Index> linings;                   ///< rows of Model::linings that it installs
   std::vector<Index> out;                       ///< rows of Model::openings that it excavates
   std::vector<std::pair<Index, double>> relax;  ///< openings, and the fraction of their wall forces
                                                 ///< that it releases

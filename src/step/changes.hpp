@@ -52,6 +52,11 @@ void keep(Simulation& sim, const std::vector<WallForce>& more);
 void switch_over(Simulation& sim, const NamedRows& off, const NamedRows& on);
 /// Installs bolts (rows of all_bolts()) in the present positions of the rock.
 std::optional<Fault> install(Simulation& sim, const std::vector<Index>& bolts);
+/// Blocks that were not there come into being where they are placed, at rest and without force on
+/// what they touch.
+void begin_blocks(Simulation& sim, const std::vector<Id>& blocks);
+/// Puts linings (rows of Model::linings) without stress on the walls as they are now.
+void install_linings(Simulation& sim, const std::vector<Index>& rows);
 /// Glues all closed contacts, so that they neither open nor slide, or ends this.
 void glue_joints(Simulation& sim, bool glued);
 

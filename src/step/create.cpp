@@ -9,6 +9,7 @@
 #include "contacts/strength.hpp"
 #include "cutting/build_polygons.hpp"
 #include "cutting/cut_domain.hpp"
+#include "cutting/linings.hpp"
 #include "cutting/t_nodes.hpp"
 #include "cutting/zone_size.hpp"
 #include "step/changes.hpp"
@@ -72,12 +73,14 @@ Result<Scene> build_scene(Model given, BlockOrder order, const Stepper& stepper)
   Result<PolygonSet> cut = build_polygons(scene.model);
   if (!cut.ok()) return cut.faults();
   scene.polygons = std::move(cut.value());
+  const Solver& solver = scene.model.solver;
+  divide_edges(scene.model, scene.polygons);
+  if (std::vector<Fault> faults = add_linings(scene.model, scene.polygons); !faults.empty())
+    return faults;
   if (order == BlockOrder::reversed) {
     std::reverse(scene.polygons.blocks.begin(), scene.polygons.blocks.end());
     scene.polygons.reversed = true;
   }
-  const Solver& solver = scene.model.solver;
-  divide_edges(scene.model, scene.polygons);
   BlockSet& blocks = scene.blocks;
   blocks = build_blocks(scene.model, scene.polygons);
   if (std::vector<Fault> faults = fit_restitution(scene.model, blocks); !faults.empty()) {
@@ -140,6 +143,13 @@ void place_blocks(Simulation& sim) {
   place_all(sim);
   pose.x2 = pose.x1 = pose.x;
   pose.y2 = pose.y1 = pose.y;
+  // Those that a stage installs are not there yet.
+  for (std::size_t i = 0; i < nb; ++i) {
+    if (!blocks.is_lining(i)) continue;
+    const std::string& name =
+        sim.scene->model.linings[static_cast<std::size_t>(blocks.lining[i])].name;
+    motion.state.alive[i] = name.empty() || installed_at_first(sim.scene->model, name) ? 1 : 0;
+  }
 }
 
 const Stepper& stepper_of(const Model& model) {

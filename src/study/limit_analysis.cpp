@@ -38,6 +38,11 @@ const Stage* collapsed_before(const Model& model, const Fos& fos) {
 }
 
 std::optional<Fault> without_limit(const Model& model, const Fos& fos) {
+  if (!model.linings.empty()) {
+    return fault_at(model, model.linings.front().where, "lining",
+                    "rigid limit analysis has no linings",
+                    "leave them out, or run edda fos, which has them");
+  }
   if (fos.varied == Varied::shaking) {
     return fault_at(model, fos.where, "fos.vary",
                     "a ground motion has no limit load: limit analysis is statics",

@@ -6,6 +6,7 @@
 
 #include "base/parallel.hpp"
 #include "blocks/kinematics.hpp"
+#include "zones/lining_pieces.hpp"
 #include "zones/pairs.hpp"
 
 namespace edda {
@@ -88,10 +89,16 @@ double highest_square(const ZoneModel& model, const Meshes& m, std::size_t p,
 /// Fills ZoneModel::square.
 void find_squares(ZoneModel& zones, const Model& model, const BlockSet& b) {
   std::vector<double> of_pair(zones.pair.size());
+  const std::vector<Vec2> drawn = drawn_nodes(b.meshes);
   parallel_for(
       of_pair.size(),
       [&](std::size_t p) {
-        const auto material = static_cast<std::size_t>(b.material[zones.pair_block[p]]);
+        const std::size_t i = zones.pair_block[p];
+        const auto material = static_cast<std::size_t>(b.material[i]);
+        if (zones.is_piece(p)) {
+          of_pair[p] = highest_square_of_piece(zones, b, drawn, p);
+          return;
+        }
         of_pair[p] = highest_square(zones, b.meshes, p, zones.material[material],
                                     model.materials[material].density);
       },
@@ -219,6 +226,37 @@ void take_elastic(const PairResults& r, std::size_t at, const ZoneModel& model, 
   replace_stored(all, p, r.stored[at], change);
 }
 
+/// The stress of a fibre of a lining, along its chord c.
+std::array<double, 4> along_chord(double stress, Vec2 c) {
+  const Vec2 t = unit(c);
+  return {stress * t.x * t.x, stress * t.y * t.y, 0.0, stress * t.x * t.y};
+}
+
+/// The piece of a lining that pair p is. Its zones have the stresses of its outer and inner fibre.
+void evaluate_piece(const ZoneModel& model, const BlockSet& b, double h, Zones& all,
+                    std::size_t p) {
+  const std::uint32_t q = model.piece_of_pair[p];
+  const LiningPiece& piece = model.piece[q];
+  BeamState& state = all.piece[q];
+  const auto [outer, inner] = model.pair[p];
+  const BeamCorners x = corners_of(b.meshes, model.pair[p], all.place);
+  const BeamResult r = evaluate_beam(piece.shape, model.strength[piece.strength], x, state);
+  const double change = replace_force(b, h, all, outer, {r.force[0], r.force[1], r.force[2]}) +
+                        replace_force(b, h, all, inner, {Vec2{}, Vec2{}, r.force[3]});
+  const double mean = state.forces.axial / piece.area,
+               bent = 0.5 * (state.forces.moment[0] + state.forces.moment[1]) / piece.modulus;
+  const Vec2 chord = x[1] + x[2] - x[0] - x[3];
+  all.stress[outer] = along_chord(mean + bent, chord);
+  all.stress[inner] = along_chord(mean - bent, chord);
+  for (const auto& [zone, stress] :
+       {std::pair{outer, mean + bent}, std::pair{inner, mean - bent}}) {
+    const Yielding as = stress > 0.0 ? Yielding::in_tension : Yielding::in_shear;
+    all.yielding[zone] = static_cast<std::uint8_t>(r.yields ? as : Yielding::nowhere);
+  }
+  all.dissipated[p] += r.dissipated;
+  replace_stored(all, p, r.stored, change);
+}
+
 bool may_flow(const PairResults& r, std::size_t at, const ZoneModel& model, const BlockSet& b,
               const Zones& all, std::size_t p) {
   const ZoneMaterial& rock =
@@ -232,11 +270,27 @@ bool may_flow(const PairResults& r, std::size_t at, const ZoneModel& model, cons
   return false;
 }
 
+/// The pieces of linings among a group of pairs. Returns whether all of them are.
+bool evaluate_pieces(const ZoneModel& model, const BlockSet& b, const State& s, double h,
+                     Zones& all, std::size_t first) {
+  if (model.piece.empty()) return false;
+  bool pieces_alone = true;
+  for (std::size_t p = first; p < std::min(first + pairs_at_once, model.pair.size()); ++p) {
+    if (!model.is_piece(p)) {
+      pieces_alone = false;
+    } else if (s.alive[model.pair_block[p]] != 0) {
+      evaluate_piece(model, b, h, all, p);
+    }
+  }
+  return pieces_alone;
+}
+
 /// The pairs of group g.
 void evaluate_group(const ZoneModel& model, const BlockSet& b, const State& s, double h, Zones& all,
                     std::size_t g) {
   const std::size_t first = g * pairs_at_once;
   const auto pair_at = [&](std::size_t at) { return std::min(first + at, model.pair.size() - 1); };
+  if (evaluate_pieces(model, b, s, h, all, first)) return;
   PairInputs in;
   for (std::size_t at = 0; at < pairs_at_once; ++at) {
     auto [one, other] = model.pair[pair_at(at)];
@@ -249,7 +303,7 @@ void evaluate_group(const ZoneModel& model, const BlockSet& b, const State& s, d
   evaluate_pairs(model.group[g], in, r);
   for (std::size_t at = 0; first + at < model.pair.size() && at < pairs_at_once; ++at) {
     const std::size_t p = first + at;
-    if (s.alive[model.pair_block[p]] == 0) continue;
+    if (s.alive[model.pair_block[p]] == 0 || model.is_piece(p)) continue;
     if (may_flow(r, at, model, b, all, p)) {
       evaluate_pair(model, b, h, all, p);
     } else {
@@ -314,6 +368,7 @@ std::array<double, 4> stress_at(const Model& model, const Material& material,
 void begin_under_stress(const ZoneModel& zones, const Model& model, const BlockSet& b, Zones& all) {
   const StressField field(model, b.origin);
   for (std::size_t i = 0; i < b.size(); ++i) {
+    if (b.is_lining(i)) continue;
     const Vec2 centre{b.centroid_x[i], b.centroid_y[i]};
     for (std::uint32_t z = b.meshes.zone_begin[i]; z < b.meshes.zone_begin[i + 1]; ++z) {
       const auto material = static_cast<std::size_t>(b.material[i]);
@@ -348,12 +403,15 @@ ZoneModel make_zones(const Model& model, const BlockSet& b) {
       zones.shape.push_back(
           zone_shape(mesh.nodes[t[0]], mesh.nodes[t[1]], mesh.nodes[t[2]], b.thickness));
     const std::uint32_t first = m.zone_begin[i];
-    for (const auto& [one, other] : pair_triangles(mesh)) {
+    for (const auto& [one, other] : b.is_lining(i) ? neighbours(mesh) : pair_triangles(mesh)) {
       zones.pair.push_back({first + one, other == no_partner ? no_partner : first + other});
       zones.pair_block.push_back(static_cast<std::uint32_t>(i));
     }
+    if (b.is_lining(i)) add_pieces(zones, model, b, i);
     zones.pair_begin.push_back(static_cast<std::uint32_t>(zones.pair.size()));
   }
+  for (const Lining& lining : model.linings) zones.strength.push_back(strength_of(model, lining));
+  if (!zones.piece.empty()) zones.piece_of_pair.resize(zones.pair.size(), no_piece);
   make_groups(zones, b);
   for (const auto& zone : m.zone) {
     for (const std::uint32_t j : zone) ++count[j + 1];
@@ -385,13 +443,15 @@ Zones zones_at_start(const ZoneModel& zones, const Model& model, const BlockSet&
   all.force.resize(many);
   all.stress.resize(many);
   all.yielding.resize(many);
+  place_all_nodes(b, state, all);
+  for (const LiningPiece& piece : zones.piece)
+    all.piece.push_back(beam_at_start(corners_of(b.meshes, zones.pair[piece.pair], all.place)));
   for (auto* of : {&all.stored, &all.stored_between, &all.dissipated}) of->assign(pairs, 0.0);
   if (water.any()) {
     for (auto* of : {&all.pore, &all.swelling, &all.pore_work, &all.pore_work_due})
       of->assign(many, 0.0);
   }
   if (model.initial_stress) {
-    place_all_nodes(b, state, all);
     for_wet_zones(water, b, state, all, [&](std::uint32_t z, double u) { all.pore[z] = u; });
     begin_under_stress(zones, model, b, all);
     for (std::size_t z = 0; z < all.pore.size(); ++z) all.state[z].locked -= all.pore[z];
@@ -399,6 +459,18 @@ Zones zones_at_start(const ZoneModel& zones, const Model& model, const BlockSet&
   evaluate_zones(zones, b, state, {}, 0.0, all);
   all.stored_between = all.stored;
   return all;
+}
+
+void begin_lining(const ZoneModel& model, const BlockSet& b, const State& s, std::size_t i,
+                  Zones& zones) {
+  place_nodes(b, s.position, zones.place, i, i + 1);
+  place_nodes(b, s.velocity, zones.rate, i, i + 1);
+  for (std::uint32_t p = model.pair_begin[i]; p < model.pair_begin[i + 1]; ++p) {
+    zones.piece[model.piece_of_pair[p]] =
+        beam_at_start(corners_of(b.meshes, model.pair[p], zones.place));
+    for (const std::uint32_t z : model.pair[p]) zones.force[z] = {};
+    zones.stored[p] = zones.stored_between[p] = 0.0;
+  }
 }
 
 void evaluate_zones(const ZoneModel& model, const BlockSet& b, const State& s,

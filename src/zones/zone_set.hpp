@@ -7,10 +7,21 @@
 
 #include "blocks/initial_stress.hpp"
 #include "blocks/state.hpp"
+#include "zones/beam.hpp"
 #include "zones/pair_lanes.hpp"
 #include "zones/zone.hpp"
 
 namespace edda {
+
+inline constexpr std::uint32_t no_piece = 0xffffffffu;
+
+/// A piece of a lining, between two sections.
+struct LiningPiece {
+  BeamShape shape;
+  std::uint32_t strength = 0;        ///< of ZoneModel::strength
+  double area = 0.0, modulus = 0.0;  ///< m2 and m3, A and 2 I/t of its section
+  std::uint32_t pair = 0;            ///< of zones
+};
 
 /// What does not change during a run. Zones and mesh nodes are those of BlockSet::meshes.
 struct ZoneModel {
@@ -24,6 +35,13 @@ struct ZoneModel {
   std::vector<double> square;  ///< [mesh nodes] largest of the squares of the highest frequencies
                                ///< that pairs around it have by themselves, 1/s2
   std::vector<std::uint32_t> around;  ///< corners of zones at each node: 3 zone + k
+  // Linings: each piece is the pair of triangles that it consists of.
+  std::vector<std::uint32_t> piece_of_pair;  ///< [pairs] or no_piece; empty: no linings
+  std::vector<LiningPiece> piece;
+  std::vector<SectionStrength> strength;  ///< [linings of the model]
+  bool is_piece(std::size_t p) const {
+    return !piece_of_pair.empty() && piece_of_pair[p] != no_piece;
+  }
 };
 ZoneModel make_zones(const Model& model, const BlockSet& blocks);
 
@@ -38,6 +56,7 @@ struct Zones {
   std::vector<std::array<Vec2, 3>> force;     ///< [zones] on its nodes, N
   std::vector<std::array<double, 4>> stress;  ///< [zones] Cauchy, xx, yy, zz, xy, Pa
   std::vector<std::uint8_t> yielding;         ///< [zones] Yielding
+  std::vector<BeamState> piece;               ///< [pieces of linings]
   std::vector<double> stored;                 ///< [pairs] J, at the positions
   std::vector<double> stored_between;         ///< [pairs] J, in the terms of the energy balance:
                                               ///< between the positions before and these
@@ -65,6 +84,14 @@ struct PoreWater {
 /// pore pressure (without one the water comes in the first step); strength divided by `factor`.
 Zones zones_at_start(const ZoneModel& zones, const Model& model, const BlockSet& blocks,
                      const State& state, const PoreWater& water, double factor);
+
+/// Begins the pieces of block i, a lining, without stress where they are.
+void begin_lining(const ZoneModel& model, const BlockSet& blocks, const State& state, std::size_t i,
+                  Zones& zones);
+
+/// Where the corners of the piece that pair p is are, m.
+BeamCorners corners_of_piece(const BlockSet& blocks, const ZoneModel& model, const State& state,
+                             std::size_t p);
 
 /// Evaluates the zones of the blocks that are alive at the positions x_{n+1} of a state, to which
 /// they have moved by h v from those of the last evaluation. With forces f = -grad W a leapfrog

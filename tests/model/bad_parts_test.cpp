@@ -134,6 +134,37 @@ TEST(BadModel, GroundMotions) {
   }
 }
 
+TEST(BadModel, Linings) {
+  const std::string at = "[[lining]]\nopening = \"hole\"\n", thick = at + "thickness = 0.2\n";
+  const std::string first = "[[lining]]\nname = \"a\"\nopening = \"hole\"\nthickness = 0.2\n";
+  for (const Bad& bad : {
+           Bad{at, 42, "lining.0.thickness", "is missing"},
+           Bad{"[[lining]]\nthickness = 0.2\n", 42, "lining.0", "opening"},
+           Bad{at + "area = 1e-3\n", 42, "lining.0.inertia", "is missing"},
+           Bad{thick + "area = 1e-3\ninertia = 1e-5\n", 44, "lining.0.thickness",
+               "area and inertia are given"},
+           Bad{"[[lining]]\nopening = \"hol\"\nthickness = 0.2\n", 43, "lining.0.opening",
+               "did you mean \"hole\""},
+           Bad{thick + "along = [[0, 0], [1, 0]]\n", 45, "lining.0.along", "opening is given too"},
+           Bad{thick + "from_angle = 10\n", 42, "lining.0.to_angle", "is missing"},
+           Bad{thick + "from_angle = 10\nto_angle = 370\n", 46, "lining.0.to_angle",
+               "is the direction of from_angle"},
+           Bad{thick + "tensile_strength = 1e6\n", 45, "lining.0.tensile_strength",
+               "belongs to a compressive_strength"},
+           Bad{thick + "compressive_strength = 2e7\nplastic_moment = 1e4\n", 46,
+               "lining.0.plastic_moment", "of steel sets"},
+           Bad{first + "[[lining]]\non = \"b\"\nthickness = 0.2\n", 47, "lining.1.on",
+               "no lining before it is called"},
+           Bad{first + "[[stage]]\nduration = 0.1\nexcavate = [\"hole\"]\n", 42, "lining.a",
+               "which is not excavated at the start"},
+           Bad{first + "[[stage]]\nduration = 0.05\ninstall = [\"a\"]\n[[stage]]\nduration = 0.05\n"
+                       "excavate = [\"hole\"]\n",
+               48, "stage.0.install", "which has not been excavated yet"},
+       }) {
+    expect_fault(bad);
+  }
+}
+
 TEST(BadModel, Bolts) {
   const std::string at = "[[bolt]]\nfrom = [15, 1]\nto = [15, 3]\ndiameter = 0.02\n",
                     end = at + "type = \"end\"\n";
@@ -301,7 +332,7 @@ TEST(BadModel, Stages) {
                    "relax = { hole = 0.4 }\n",
                48, "stage.1.relax.hole", "is less than the 0.6 released so far"},
            Bad{stage + "install = [\"nail\"]\n", 44, "stage.0.install[0]",
-               "names no bolt or pattern of bolts"},
+               "names no bolt, pattern of bolts or lining"},
            Bad{bolt + stage + "install = [\"nial\"]\n", 50, "stage.0.install[0]", "nail"},
            Bad{bolt + stage + "install = [\"nail\"]\n" + next + "install = [\"nail\"]\n", 53,
                "stage.1.install[0]", "has been installed before"},

@@ -22,10 +22,6 @@ strength = { ucs = "90 MPa", tension = 6e6 }
 unit_weight = "20 kN/m3"
 young = 5e6
 poisson = "40 %"
-[materials."worn rock"]
-density = 2750
-young = 2e10
-poisson = 0.25
 [joints.glue]
 type = "glued"
 [joints.rough]
@@ -268,6 +264,31 @@ spacing = 2.0
 pretension = 1e3
 bond = { stiffness = "1 GN/m2", strength = "400 kN/m" }
 dowel = { stiffness = "100 MN/m", strength = "150 kN" }
+[[lining]]
+name = "shell"
+opening = "cavern"
+from_angle = -10
+to_angle = 190
+material = "rock"
+thickness = "15 cm"
+compressive_strength = "20 MPa"
+tensile_strength = "2 MPa"
+size = 0.4
+interface = "rough"
+[[lining]]
+name = "second"
+on = "shell"
+material = "rock"
+area = "40 cm2"
+inertia = "573 cm4"
+spacing = 1.2
+compressive_strength = 2.5e8
+plastic_moment = "30 kN m"
+interface = "rough"
+[[lining]]
+along = [[0, 0], [5, 0], [5, "50 cm"]]
+material = "rock"
+thickness = 0.1
 [[monitor]]
 name = "P1"
 point = [15, 9]
@@ -291,8 +312,8 @@ deactivate = ["wet"]
 duration = 60.0
 excavate = ["cavern"]
 relax = { cavern = 0.6 }
-install = ["round"]
-change = [{ joints = "rough", to = "weak", region = [[11, 1], [12, 1], [12, 2]], around = "cavern", distance = "2 m" }, { material = "rock", to = "worn rock" }]
+install = ["round", "shell", "second"]
+change = [{ joints = "rough", to = "weak", region = [[11, 1], [12, 1], [12, 2]], around = "cavern", distance = "2 m" }]
 activate = ["axle", "wet"]
 masses = "as given"
 reset_displacements = true
@@ -373,6 +394,9 @@ growth = 0.2
 [[block]]
 polygon = [[0, 0], [2, 0], [2, 2], [0, 2]]
 material = "rock"
+[[stage]]
+duration = 1
+change = [{ material = "marl", to = "shale" }]
 [solver]
 duration = 1
 )";

@@ -30,7 +30,7 @@ void expect_every_key(const Model& m) {
   EXPECT_EQ(m.gravity, (Vec2{1, -9.8}));
   EXPECT_EQ(m.plane, Plane::stress);
   EXPECT_EQ(m.thickness, 0.5);
-  ASSERT_EQ(m.materials.size(), 3U);
+  ASSERT_EQ(m.materials.size(), 2U);
   EXPECT_EQ(m.materials[0].name, "rock");
   EXPECT_EQ(m.materials[0].density, 2750.0);
   EXPECT_EQ(m.materials[0].young, 20e9);
@@ -258,6 +258,33 @@ void expect_every_boundary_key(const Model& m) {
   EXPECT_EQ(m.shakings[1].enters, 2);
 }
 
+void expect_every_lining_key(const Model& m) {
+  ASSERT_EQ(m.linings.size(), 3U);
+  const Lining& shell = m.linings[0];
+  EXPECT_EQ(shell.name, "shell");
+  EXPECT_EQ(shell.opening, "cavern");
+  EXPECT_EQ(shell.from_angle, -10.0);
+  EXPECT_EQ(shell.to_angle, 190.0);
+  EXPECT_EQ(m.materials[static_cast<std::size_t>(shell.material)].name, "rock");
+  EXPECT_EQ(shell.thickness, 0.15);
+  EXPECT_EQ(shell.drawn_thickness(), 0.15);
+  EXPECT_EQ(shell.solidity(), 1.0);
+  EXPECT_EQ(shell.compressive_strength, 20e6);
+  EXPECT_EQ(shell.tensile_strength, 2e6);
+  EXPECT_EQ(shell.size, 0.4);
+  EXPECT_EQ(m.joints[static_cast<std::size_t>(shell.interface)].name, "rough");
+  const Lining& sets = m.linings[1];
+  EXPECT_EQ(sets.on, "shell");
+  EXPECT_DOUBLE_EQ(*sets.area, 40e-4);
+  EXPECT_DOUBLE_EQ(*sets.inertia, 573e-8);
+  EXPECT_EQ(sets.spacing, 1.2);
+  EXPECT_EQ(sets.plastic_moment, 30e3);
+  // The solid section of the same area and inertia, over the spacing of the sets.
+  EXPECT_DOUBLE_EQ(sets.drawn_thickness(), std::sqrt(12.0 * 573e-8 / 40e-4));
+  EXPECT_DOUBLE_EQ(sets.solidity() * sets.drawn_thickness(), 40e-4 / 1.2);
+  EXPECT_EQ(m.linings[2].along, (std::vector<Vec2>{{0, 0}, {5, 0}, {5, 0.5}}));
+}
+
 void expect_every_bolt_key(const Model& m) {
   ASSERT_EQ(m.bolts.size(), 1U);
   const Bolt& bolt = m.bolts[0];
@@ -333,24 +360,20 @@ void expect_every_stage_key(const Model& m) {
   EXPECT_EQ(m.stages[0].strength_factor, 1.0);
   EXPECT_EQ(m.stages[1].strength_factor, 1.25);
   EXPECT_EQ(m.stages[1].excavate, std::vector<std::string>{"cavern"});
-  ASSERT_EQ(m.stages[1].change.size(), 2U);
-  const PropertyChange &joints = m.stages[1].change[0], &rock = m.stages[1].change[1];
+  ASSERT_EQ(m.stages[1].change.size(), 1U);
+  const PropertyChange& joints = m.stages[1].change[0];
   EXPECT_EQ(m.joints[static_cast<std::size_t>(joints.joints)].name, "rough");
   EXPECT_EQ(m.joints[static_cast<std::size_t>(joints.row)].name, "weak");
   EXPECT_EQ(joints.material, none);
   EXPECT_EQ(joints.region.size(), 3U);
   EXPECT_EQ(joints.opening, 0);
   EXPECT_EQ(joints.distance, 2.0);
-  EXPECT_EQ(m.materials[static_cast<std::size_t>(rock.material)].name, "rock");
-  EXPECT_EQ(m.materials[static_cast<std::size_t>(rock.row)].name, "worn rock");
-  EXPECT_EQ(rock.joints, none);
-  EXPECT_EQ(rock.opening, none);
   EXPECT_EQ(m.stages[1].relax, (NumberMap{{"cavern", 0.6}}));
   EXPECT_EQ(m.stages[0].joints, StageJoints::glued);
   EXPECT_EQ(m.stages[0].falling, FallingBlocks::wait);
   EXPECT_EQ(m.stages[0].masses, StageMasses::as_given) << "the model gives a time step";
   EXPECT_EQ(m.stages[0].deactivate, std::vector<std::string>{"wet"});
-  EXPECT_EQ(m.stages[1].install, std::vector<std::string>{"round"});
+  EXPECT_EQ(m.stages[1].install, (std::vector<std::string>{"round", "shell", "second"}));
   EXPECT_EQ(m.stages[1].activate, (std::vector<std::string>{"axle", "wet"}));
   EXPECT_EQ(m.stages[1].joints, StageJoints::as_given);
   EXPECT_EQ(m.stages[1].falling, FallingBlocks::report);
@@ -392,6 +415,7 @@ void expect_every_solver_key(const Model& m) {
 void expect_every_run_key(const Model& m) {
   expect_every_boundary_key(m);
   expect_every_bolt_key(m);
+  expect_every_lining_key(m);
   expect_every_load_key(m);
   expect_every_stage_key(m);
   expect_every_solver_key(m);

@@ -61,7 +61,7 @@ TEST(WriteModel, ImplicitMethodComesBack) {
   const std::size_t wave = text.find("[[shaking]]\nacceleration");
   text.erase(wave, text.find("[[monitor]]") - wave);
   text.erase(text.find("restitution = 0.4\n"), 18);
-  const std::string install = "install = [\"round\"]\n";
+  const std::string install = "install = [\"round\", \"shell\", \"second\"]\n";
   text.erase(text.find(install), install.size());
   const std::size_t change = text.find("change = ");
   text.erase(change, text.find('\n', change) + 1 - change);
@@ -95,6 +95,12 @@ TEST(WriteModel, RockThatYieldsComesBack) {
   EXPECT_EQ(second.materials[1].yield->peak.gsi, 45.0);
   EXPECT_EQ(second.materials[2].yield->peak.m, 0.9);
   EXPECT_EQ(second.materials[3].foliation->shear_modulus, 8e9);
+  ASSERT_EQ(second.stages.size(), 1U);
+  ASSERT_EQ(second.stages[0].change.size(), 1U);
+  EXPECT_EQ(second.stages[0].change[0].joints, none);
+  EXPECT_EQ(second.stages[0].change[0].opening, none);
+  EXPECT_EQ(second.stages[0].change[0].material, 1);
+  EXPECT_EQ(second.stages[0].change[0].row, 2);
 }
 
 TEST(WriteModel, EveryKeyOfTheTableIsInTheTest) {

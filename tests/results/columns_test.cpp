@@ -30,9 +30,9 @@ std::string first_line(const std::string& path) {
 }
 
 TEST(Columns, HaveAUnitAndAMeaning) {
-  const std::set<std::string_view> units{"text", "1",   "s",   "m",         "m2",
-                                         "rad",  "m/s", "N/m", "Pa",        "rad/s",
-                                         "m/s2", "N",   "J",   "as varied", "as asked"};
+  const std::set<std::string_view> units{
+      "text", "1",    "s", "m", "m2",        "rad",      "m/s", "N/m", "Pa",
+      "rad/s", "m/s2", "N", "J", "as varied", "as asked", "N m"};
   std::set<std::string_view> files;
   for (const ResultTable& table : result_tables()) {
     EXPECT_TRUE(files.insert(table.file).second) << table.file;
@@ -58,7 +58,7 @@ TEST(Columns, OfStressesAndNormalForcesTellTheirSign) {
         return c.meaning.find(what) != std::string_view::npos;
       };
       const std::string where = std::string(table.file) + ' ' + std::string(c.name);
-      const bool is_normal = c.name.starts_with("normal_");
+      const bool is_normal = c.name.starts_with("normal_") || c.name == "thrust";
       const bool is_rock =
           c.name.ends_with("sxx") || c.name.ends_with("syy") || c.name.ends_with("szz");
       EXPECT_EQ(says("positive in compression"), is_normal) << where;
@@ -80,6 +80,8 @@ TEST(Columns, KeepTheirNames) {
   EXPECT_EQ(header_of(ResultFile::bolts),
             "time,bolt,distance,x,y,axial_force,bond_force,dowel_force,utilisation,yielded,"
             "ruptured\n");
+  EXPECT_EQ(header_of(ResultFile::linings),
+            "time,lining,piece,distance,x,y,thrust,moment,shear,utilisation,hinge_rotation\n");
   EXPECT_EQ(header_of(ResultFile::stages),
             "stage,name,until,reached,start,end,steps,ratio,largest_ratio,largest_block,kinetic,"
             "strain,contact,gravity,friction,damping,fracture,external,drift,contacts,sliding,"

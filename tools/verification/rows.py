@@ -381,4 +381,22 @@ ROWS = (
         "A block rests on a ramp of 30 deg by friction of 45 deg and cohesion until the joint weathers to 15 deg. A column of two blocks"
         " stands until one or both of its joints become ten times softer, and is loaded then.",
         "It slides from rest as with 15 deg from the beginning. Nothing moves by the change, and the load meets the new stiffness."),
+    Row(81, "Linings as beams",
+        "Cantilevers of a lining, straight in 16 pieces and as a quarter circle in 96, with their ends glued into rock; a ring of 64"
+        " pieces under pressure from outside.",
+        "Deflection with shear; thrust p r and closure p r^2/EA.",
+        "The ring is a polygon, a thousandth smaller than its circle."),
+    Row(82, "Vibration of a lining",
+        "A cantilever 20 times as long as thick swings freely after a push.",
+        "The first mode of a beam, with shear and rotary inertia (Southwell's sum of compliances)."),
+    Row(83, "A plastic hinge",
+        "A lining on two supports is pushed down at its middle until it fails.",
+        "4 M_p/L (limit analysis)."),
+    Row(84, "A lined tunnel",
+        "A circular tunnel of 5 m radius in ground of 1 GPa under 1 MPa vertically and 0.5 MPa horizontally, lined at once by 20 cm of"
+        " concrete, bonded to the ground or without friction.",
+        "Einstein and Schwartz (1979), with the ground at the outer face of the lining."),
+    Row(85, "A lining that comes later",
+        "The same under 1 MPa all round, lined when 0.6 of the wall forces have been released.",
+        "0.4 of the thrust of a lining from the beginning."),
 )

@@ -72,6 +72,9 @@ void complete_material_references(const Value& root, Reading& reading) {
     const Value* node = find(&root, "domain");
     complete_one(node != nullptr ? node : find(&root, "slope"), *model.domain);
   }
+  for (std::size_t i = 0; i < model.linings.size(); ++i) {
+    complete_one(element(root, "lining", i), model.linings[i]);
+  }
   for (std::size_t i = 0; i < model.walls.size(); ++i) {
     complete_one(element(root, "brick_wall", i), model.walls[i]);
   }
@@ -110,6 +113,7 @@ BlockCount count_blocks(const Model& model) {
   for (const Import& import : model.imports) {
     if (!model.domain) count.add(2.0, import.joint, import.where);
   }
+  for (const Lining& lining : model.linings) count.add(1.0, lining.interface, lining.where);
   if (!model.domain) return count;
   const bool is_named = model.domain->joint != none;
   const std::size_t before = count.unnamed.size();
@@ -203,7 +207,7 @@ void check_content(const Value& root, Reading& reading) {
                fault.where.key == "arch" || fault.where.key == "import";
       });
   if (model.blocks.empty() && !model.domain && model.walls.empty() && model.arches.empty() &&
-      model.imports.empty() && !is_misspelt) {
+      model.imports.empty() && model.linings.empty() && !is_misspelt) {
     add_fault(reading, {1, 1, false}, "block", "the model has no blocks",
               "add a [[block]], a [domain] or a [[brick_wall]]");
   }
@@ -370,6 +374,7 @@ void complete(const Value& root, Reading& reading) {
   check_names(root, "shaking", model.shakings, reading);
   check_names(root, "bolt", model.bolts, reading);
   check_names(root, "bolt_pattern", model.bolt_patterns, reading);
+  check_names(root, "lining", model.linings, reading);
   check_names(root, "convergence", model.convergences, reading);
   check_names(root, "measurement", model.measurements, reading);
   complete_boundaries(root, reading);
@@ -377,9 +382,11 @@ void complete(const Value& root, Reading& reading) {
   complete_initial_stress(root, reading);
   complete_shakings(root, reading);
   complete_bolts(root, reading);
+  complete_linings(root, reading);
   complete_geometry(root, reading);
   complete_loads(root, reading);
   complete_stages(root, reading);
+  check_first_linings(root, reading);
   check_solver(root, reading);
   complete_fos(root, reading);
   complete_points(root, reading);

@@ -49,6 +49,9 @@ void complete_shakings(const Value& root, Reading& reading);
 /// are named.
 void complete_bolts(const Value& root, Reading& reading);
 
+/// As complete(), for [[lining]]: where it is and its section; methods that have none.
+void complete_linings(const Value& root, Reading& reading);
+
 /// As complete(), for [joints.NAME]: the keys that each type needs and those that it does not have;
 /// residual strength.
 void complete_joints(const Value& root, Reading& reading);
@@ -58,6 +61,9 @@ void complete_fos(const Value& root, Reading& reading);
 
 /// As complete(), for contact.model = "points": what the paper's contacts do not have is refused.
 void complete_points(const Value& root, Reading& reading);
+
+/// That linings which are there from the start lie on walls that are. After complete_stages().
+void check_first_linings(const Value& root, Reading& reading);
 
 /// As complete(), for [[stage]]: defaults of damping and masses, names, sum of durations.
 void complete_stages(const Value& root, Reading& reading);

@@ -16,8 +16,6 @@ std::string_view name_of(BoundaryType type) {
   return names_of(type)[static_cast<std::size_t>(type)];
 }
 
-constexpr const char* implicit_remedy = "use method = \"edda\", or leave it out";
-
 /// A key that only some types of boundary have.
 struct TypeKey {
   std::string_view name;
@@ -224,21 +222,6 @@ void check_bolt(const Value* node, const Bolt& bolt, const Where& where, Reading
   }
 }
 
-void check_opening(const Value* node, const BoltPattern& pattern, Reading& reading) {
-  std::vector<std::string_view> known;
-  for (const Opening& opening : reading.model.openings) {
-    if (opening.name == pattern.opening) return;
-    if (!opening.name.empty()) known.push_back(opening.name);
-  }
-  const Value* name = find(node, "opening");
-  if (name == nullptr || pattern.opening.empty()) return;
-  add_fault(reading, name->place, pattern.where.key + ".opening",
-            "no opening is called \"" + clipped(pattern.opening) + '"',
-            !known.empty()                   ? suggestion(pattern.opening, known)
-            : reading.model.openings.empty() ? "add an [[opening]]"
-                                             : "give the opening that name");
-}
-
 }  // namespace
 
 void complete_boundaries(const Value& root, Reading& reading) {
@@ -289,7 +272,7 @@ void complete_bolts(const Value& root, Reading& reading) {
     const Value* node = element(root, "bolt_pattern", i);
     if (!is_table(node)) continue;
     check_bolt(node, pattern.bolt, pattern.where, reading);
-    check_opening(node, pattern, reading);
+    check_opening(node, pattern.where.key, pattern.opening, reading);
   }
 }
 

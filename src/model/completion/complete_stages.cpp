@@ -125,12 +125,23 @@ void complete_excavation(const Value* own, Stage& stage, std::map<std::string, d
 void check_materials(const Material& from, const Material& to, const Value* own, const Where& where,
                      Reading& reading) {
   const bool alike = from.density == to.density && from.young == to.young &&
-                     from.poisson == to.poisson && from.foliation == to.foliation;
-  if (alike) return;
-  add_fault(reading, place_of(own, "to"), where.key + ".to",
-            fmt::format("\"{}\" has another density, young, poisson or foliation than \"{}\"",
-                        to.name, from.name),
-            "a change is one of strength: give both the same of these");
+                     from.poisson == to.poisson && from.foliation == to.foliation &&
+                     from.damping == to.damping && from.pore_pressure == to.pore_pressure &&
+                     from.deformation == to.deformation;
+  if (!alike) {
+    add_fault(reading, place_of(own, "to"), where.key + ".to",
+              fmt::format("\"{}\" has another density, young, poisson, foliation, damping, "
+                          "pore_pressure or deformation than \"{}\"",
+                          to.name, from.name),
+              "a change is one of strength: give both the same of these");
+  } else if (!from.yield || !to.yield) {
+    const std::string& name = from.yield ? to.name : from.name;
+    add_fault(
+        reading, place_of(own, "to"), where.key + ".to",
+        fmt::format("\"{}\" has no yield, and the strength of rock counts in zones that have one",
+                    name),
+        "give both materials a yield; a large cohesion leaves rock elastic");
+  }
 }
 
 void check_laws(const JointLaw& from, const JointLaw& to, const Value* own, const Where& where,
@@ -175,14 +186,12 @@ void complete_change(const Value* own, PropertyChange& change, Reading& reading)
         distance ? "distance is given without an opening" : "around is given without a distance",
         distance ? "give around = \"NAME\", an opening" : "give distance = \"2 m\"");
   } else if (given(own, "around")) {
-    const std::vector<Opening>& all = model.openings;
-    const auto found = std::find_if(all.begin(), all.end(),
-                                    [&](const Opening& o) { return o.name == change.around; });
-    if (found == all.end()) {
+    const Opening* const opening = opening_called(reading.model, change.around);
+    if (opening == nullptr) {
       names_nothing(reading, *find(own, "around"), change.where.key + ".around", change.around,
-                    "opening", names_in(all));
+                    "opening", names_in(model.openings));
     } else {
-      change.opening = static_cast<Index>(found - all.begin());
+      change.opening = static_cast<Index>(opening - model.openings.data());
     }
   }
 }
@@ -202,20 +211,73 @@ void complete_changes(const Value* own, Stage& stage, Reading& reading) {
   }
 }
 
-/// Bolts that a stage installs, each once.
+/// Whether the rock is there on which a lining lies.
+const Opening* unexcavated(const Model& model, const Lining& lining,
+                           const std::map<std::string, double>& excavated) {
+  for (const Lining& below : model.linings) {
+    if (&below == &lining) break;
+    if (!lining.on.empty() && below.name == lining.on) return unexcavated(model, below, excavated);
+  }
+  const auto excavates = [&](const Stage& stage) {
+    return std::find(stage.excavate.begin(), stage.excavate.end(), lining.opening) !=
+           stage.excavate.end();
+  };
+  for (const Opening& o : model.openings) {
+    if (!o.name.empty() && o.name == lining.opening && !excavated.contains(o.name) &&
+        std::any_of(model.stages.begin(), model.stages.end(), excavates))
+      return &o;
+  }
+  return nullptr;
+}
+
+/// A lining comes with the stage that excavates its opening, or later.
+void check_linings_of(const Stage& stage, const std::map<std::string, double>& excavated,
+                      const Value* own, Reading& reading) {
+  for (const Lining& lining : reading.model.linings) {
+    const auto& names = stage.install;
+    if (lining.name.empty() || std::find(names.begin(), names.end(), lining.name) == names.end())
+      continue;
+    const Opening* opening = unexcavated(reading.model, lining, excavated);
+    if (opening == nullptr) continue;
+    add_fault(reading, find(own, "install")->place, stage.where.key + ".install",
+              '"' + lining.name + "\" lies inside \"" + opening->name +
+                  "\", which has not been excavated yet",
+              "install it in the stage that excavates the opening, or later");
+  }
+}
+
+/// The lining on which this one lies where that has yet to be installed; else empty.
+std::string missing_below(const Model& model, const std::string& name,
+                          const std::set<std::string>& installed) {
+  for (const Lining& lining : model.linings) {
+    const std::string& on = lining.on;
+    if (lining.name != name || on.empty() || name.empty()) continue;
+    if (!installed.contains(on) && !installed_at_first(model, on)) return on;
+  }
+  return {};
+}
+
+/// Bolts and linings that a stage installs, each once.
 void check_install(const Value* own, const Stage& stage, std::set<std::string>& installed,
-                   Reading& reading) {
+                   const std::map<std::string, double>& excavated, Reading& reading) {
+  check_linings_of(stage, excavated, own, reading);
   std::vector<std::string_view> known = names_in(reading.model.bolts);
   for (const std::string_view name : names_in(reading.model.bolt_patterns)) known.push_back(name);
+  for (const std::string_view name : names_in(reading.model.linings)) known.push_back(name);
   for (std::size_t q = 0; q < stage.install.size(); ++q) {
     const std::string& name = stage.install[q];
     const Value& list = *find(own, "install");
     const std::string path = fmt::format("{}.install[{}]", stage.where.key, q);
     if (std::find(known.begin(), known.end(), name) == known.end()) {
-      names_nothing(reading, list, path, name, "bolt or pattern of bolts", known);
+      names_nothing(reading, list, path, name, "bolt, pattern of bolts or lining", known);
     } else if (!installed.insert(name).second) {
       add_fault(reading, list.place, path, '"' + name + "\" has been installed before",
                 "install each once");
+    } else if (const std::string below = missing_below(reading.model, name, installed);
+               !below.empty()) {
+      add_fault(reading, list.place, path,
+                '"' + name + "\" lies on \"" + below + "\", which is not there yet",
+                "install that one before it, or together with it and before it in the list");
     }
   }
 }
@@ -406,7 +468,7 @@ void complete_stages(const Value& root, Reading& reading) {
     check_ramp_damping(own, stage, reading);
     complete_masses(own, solver, stage, reading);
     complete_excavation(own, stage, let_go, reading);
-    check_install(own, stage, installed, reading);
+    check_install(own, stage, installed, let_go, reading);
     complete_changes(own, stage, reading);
     check_switches(own, stage, acting, known, reading);
     check_acts(own, stage, acting, reading);
@@ -430,6 +492,27 @@ void complete_stages(const Value& root, Reading& reading) {
               fmt::format("is not the {:.6g} s of the stages together", sum), "leave it out");
   }
   solver.duration = sum;
+}
+
+void check_first_linings(const Value& root, Reading& reading) {
+  const Model& model = reading.model;
+  for (std::size_t q = 0; q < model.linings.size(); ++q) {
+    const Lining& lining = model.linings[q];
+    const Value* node = element(root, "lining", q);
+    if (!is_table(node) || (!lining.name.empty() && !installed_at_first(model, lining.name)))
+      continue;
+    if (!lining.on.empty() && !installed_at_first(model, lining.on)) {
+      add_fault(reading, node->place, lining.where.key,
+                "lies on \"" + lining.on + "\", which is not there at the start",
+                "name it in install of the stage that installs that one, or of a later one");
+      continue;
+    }
+    const Opening* opening = unexcavated(model, lining, {});
+    if (opening == nullptr) continue;
+    add_fault(reading, node->place, lining.where.key,
+              "lies inside \"" + opening->name + "\", which is not excavated at the start",
+              "name it in install of the stage that excavates the opening, or of a later one");
+  }
 }
 
 }  // namespace edda

@@ -44,6 +44,12 @@ bool one_of(const Value* table, const std::string& path, std::string_view first,
 void check_local_damping(const Value* damping, const std::string& owner, const Solver& solver,
                          const char* instead, Reading& reading);
 
+inline constexpr const char* implicit_remedy = "use method = \"edda\", or leave it out";
+
+/// Adds a fault where no opening has the name that the key `opening` of this table gives.
+void check_opening(const Value* node, const std::string& path, const std::string& opening,
+                   Reading& reading);
+
 /// What `vary` ("kh", "load:NAME" ...) means; a fault at that place and key where it means nothing
 /// in the model.
 struct VariedRow {

@@ -233,6 +233,25 @@ constexpr std::array bolt_pattern_keys{
     Key{"dowel", at<&BoltPattern::bolt, &Bolt::dowel>, table, otherwise("no dowel action"), "As of a bolt."},
 };
 
+constexpr std::array lining_keys{
+    Key{"name", at<&Lining::name>, naming, otherwise("none"), "What --set, stages and tables call the lining."},
+    Key{"opening", at<&Lining::opening>, naming, otherwise("none; either this, on or along"), "Name of the opening on whose outline the lining is, inside it."},
+    Key{"on", at<&Lining::on>, naming, otherwise("none"), "Name of the lining on whose inner side this one is, a further layer."},
+    Key{"from_angle", at<&Lining::from_angle>, number(D::angle), otherwise("none: the whole outline"), "Direction of the first end of the lining from the centroid of the opening, counter-clockwise from +x."},
+    Key{"to_angle", at<&Lining::to_angle>, number(D::angle), otherwise("none: the whole outline"), "Direction of its other end, counter-clockwise from the first."},
+    Key{"along", at<&Lining::along>, polyline, otherwise("none; either this, opening or on"), "Line on whose left the lining is; where it ends at its first point, the lining is a ring inside it."},
+    Key{"material", at<&Lining::material>, material, otherwise(if_one), "Material of the lining: its elasticity and density."},
+    Key{"thickness", at<&Lining::thickness>, number(D::length, above(0)), otherwise("required unless area and inertia are given"), "Thickness of shotcrete or concrete."},
+    Key{"area", at<&Lining::area>, number(D::area, above(0)), otherwise("none; with inertia in place of thickness"), "Area of the section of a steel set."},
+    Key{"inertia", at<&Lining::inertia>, number(D::second_moment, above(0)), otherwise("none; with area in place of thickness"), "Second moment of area of the section of a steel set."},
+    Key{"spacing", at<&Lining::spacing>, number(D::length, above(0)), initial, "Distance from steel set to steel set out of plane."},
+    Key{"compressive_strength", at<&Lining::compressive_strength>, number(D::stress, above(0)), otherwise("none: the lining stays elastic"), "Compressive strength, or the yield stress of steel. Where thrust and moment of a section reach what it can carry, it becomes a plastic hinge."},
+    Key{"tensile_strength", at<&Lining::tensile_strength>, number(D::stress, from(0)), otherwise("0; of steel sets compressive_strength"), "Tensile strength."},
+    Key{"plastic_moment", at<&Lining::plastic_moment>, number(D::moment, above(0)), otherwise("that of a solid section of the same area and inertia"), "Plastic moment of a steel set without thrust."},
+    Key{"size", at<&Lining::size>, number_or("auto", D::length, above(0)), otherwise("\"auto\": a 32nd of the length of the lining, or twice its thickness if that is more"), "Length of its pieces, at most. Straight parts of an outline that stands for a curve are best one piece each: where they are divided, the lining bends as the polygon that is drawn."},
+    Key{"interface", at<&Lining::interface>, joint, otherwise("that of the wall, or contact.joint"), "Law of the faces between the lining and what it touches: stiffness, friction, adhesion (cohesion and tensile strength)."},
+};
+
 constexpr std::array monitor_keys{
     Key{"name", at<&Monitor::name>, naming, required, "What the columns of history.csv are called."},
     Key{"point", at<&Monitor::point>, point, required, "A material point of the block in which it lies at the start."},
@@ -290,7 +309,7 @@ constexpr std::array stage_keys{
     Key{"duration", at<&Stage::duration>, number(D::time, above(0)), otherwise("required until \"time\"; 10 s until \"equilibrium\", or the time in which waves cross the model 200 times, 1000 s with a ramp or a boundary of type \"displacement\""), "Length of the stage; until equilibrium the longest it may take, with a ramp for each of its values on average."},
     Key{"excavate", at<&Stage::excavate>, name_list, otherwise("none"), "Openings that are excavated at the start of the stage."},
     Key{"relax", at<&Stage::relax>, numbers_of_names(from_to(0, 1)), otherwise("all, when an opening is excavated"), "Part of the wall forces of the excavated rock that has been released by then, all stages together, by opening; the rest remains on the walls, like the support of a nearby face."},
-    Key{"install", at<&Stage::install>, name_list, otherwise("bolts that no stage names are there from the start"), "Bolts and patterns of bolts installed at the start of the stage, in the rock as deformed by then."},
+    Key{"install", at<&Stage::install>, name_list, otherwise("bolts and linings that no stage names are there from the start"), "Bolts, patterns of bolts and linings installed at the start of the stage, in the rock as deformed by then."},
     Key{"change", at<&Stage::change>, tables, otherwise("none"), "Joints and rock that have other properties from the start of the stage on, one change after the other."},
     Key{"activate", at<&Stage::activate>, name_list, otherwise("what no stage names acts from the start"), "Loads, waters, boundaries and ground motions that act from the start of the stage on; their histories count time from then."},
     Key{"deactivate", at<&Stage::deactivate>, name_list, otherwise("none"), "Those that no longer act. A boundary that takes over from another carries the forces of that one."},
@@ -375,6 +394,7 @@ constexpr std::array all_sections{
     section<&Model::shakings>("shaking", Shape::list, shaking_keys, "Ground motion (seismic loading)."),
     section<&Model::bolts>("bolt", Shape::list, bolt_keys, "A rock bolt."),
     section<&Model::bolt_patterns>("bolt_pattern", Shape::list, bolt_pattern_keys, "Bolts round an opening."),
+    section<&Model::linings>("lining", Shape::list, lining_keys, "Shotcrete, concrete or steel sets along a wall."),
     section<&Model::monitors>("monitor", Shape::list, monitor_keys, "A point whose history is written."),
     section<&Model::convergences>("convergence", Shape::list, convergence_keys, "Two points whose convergence is written."),
     section<&Model::measurements>("measurement", Shape::list, measurement_keys, "A region whose mean stress and strain are written."),
@@ -443,8 +463,8 @@ std::span<const Key> keys_of(const PropertyChange&) {
 }
 
 std::span<const Key> inner_keys_of(const Slot& slot) {
-  if (const auto* table = std::get_if<SubTable>(&slot)) return table->keys;
-  if (const auto* tables = std::get_if<TableList>(&slot)) return tables->keys;
+  if (const auto* one = std::get_if<SubTable>(&slot)) return one->keys;
+  if (const auto* many = std::get_if<TableList>(&slot)) return many->keys;
   return {};
 }
 

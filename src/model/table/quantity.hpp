@@ -29,6 +29,8 @@ enum class Dimension {
   per_length,       ///< 1/m
   stress_gradient,  ///< Pa/m
   surface_energy,   ///< J/m2
+  second_moment,    ///< of an area, m4
+  moment,           ///< N m
 };
 
 struct DimensionInfo {

@@ -145,6 +145,16 @@ class Results:
         return read_table(self._file("bolts.csv"))
 
     @property
+    def linings(self) -> Table:
+        """Two rows per piece of each lining and frame, its ends; of a model with linings.
+
+        time (s), lining (name or number), piece, distance (m along it), x, y (m); thrust (N, compression positive), moment
+        (N m, positive with tension at the wall), shear (N), each of the model's thickness; utilisation (part of the strength),
+        hinge_rotation (rad).
+        """
+        return read_table(self._file("linings.csv"))
+
+    @property
     def columns(self) -> Table:
         """A row per column of each table in the folder.
 
@@ -331,12 +341,12 @@ def _end_of_rows(text: str) -> int:
 
 
 _WHOLE = {
-    *("id", "block", "block_i", "block_j", "ring", "ever_slipped", "ever_opened", "yielded", "ruptured"),
+    *("id", "block", "block_i", "block_j", "ring", "ever_slipped", "ever_opened", "yielded", "ruptured", "piece"),
     *("stage", "reached", "holds", "steps", "largest_block", "contacts", "sliding", "bonded", "detached", "open", "broken"),
     *("yielded_bolts", "loose"),
 }
 _TEXT = {
-    *("name", "material", "joint", "table", "state", "bolt", "until", "motion", "outcome", "reason"),
+    *("name", "material", "joint", "table", "state", "bolt", "lining", "until", "motion", "outcome", "reason"),
     *("file", "column", "unit", "meaning", "vary"),
 }
 

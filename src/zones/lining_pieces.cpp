@@ -1,0 +1,92 @@
+#include "zones/lining_pieces.hpp"
+
+#include <cmath>
+
+namespace edda {
+namespace {
+
+/// Young's modulus in the plane: of shotcrete and concrete that does not strain out of it.
+double young_of(const Model& model, const Lining& lining, const Material& material) {
+  const bool plane_strain = model.plane == Plane::strain && lining.thickness;
+  return plane_strain ? material.young / (1.0 - material.poisson * material.poisson)
+                      : material.young;
+}
+
+/// A quarter of the mass of piece p.
+double corner_mass(const ZoneModel& zones, const BlockSet& b, std::uint32_t p) {
+  const std::size_t i = zones.pair_block[p];
+  const auto [one, other] = zones.pair[p];
+  return 0.25 * b.mass[i] / b.volume[i] * (zones.shape[one].volume + zones.shape[other].volume);
+}
+
+}  // namespace
+
+BeamCorners corners_of(const Meshes& m, const std::array<std::uint32_t, 2>& pair,
+                       const std::vector<Vec2>& of) {
+  const auto& [a, b, c] = m.zone[pair[0]];
+  return {of[a], of[b], of[c], of[m.zone[pair[1]][2]]};
+}
+
+std::vector<Vec2> drawn_nodes(const Meshes& m) {
+  std::vector<Vec2> node(m.nodes());
+  for (std::size_t j = 0; j < node.size(); ++j) node[j] = {m.arm_x[j], m.arm_y[j]};
+  return node;
+}
+
+SectionStrength strength_of(const Model& model, const Lining& lining) {
+  if (!lining.compressive_strength) return {};
+  const double compressive = *lining.compressive_strength,
+               tensile = lining.tensile_strength.value_or(lining.area ? compressive : 0.0);
+  const double t = lining.drawn_thickness(), area = model.thickness * t * lining.solidity(),
+               both = compressive + tensile;
+  // The rectangle with that plastic moment under the thrust at which it is largest.
+  const double thick = lining.plastic_moment ? 8.0 * *lining.plastic_moment * model.thickness /
+                                                   lining.spacing / (both * area)
+                                             : t;
+  return rectangle_strength(compressive, tensile, area, thick);
+}
+
+std::vector<std::pair<std::uint32_t, std::uint32_t>> neighbours(const Mesh& mesh) {
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs;
+  for (std::uint32_t z = 0; z < mesh.triangles.size(); z += 2) pairs.emplace_back(z, z + 1);
+  return pairs;
+}
+
+void add_pieces(ZoneModel& zones, const Model& model, const BlockSet& b, std::size_t i) {
+  const Lining& lining = model.linings[static_cast<std::size_t>(b.lining[i])];
+  const Material& material = model.materials[static_cast<std::size_t>(b.material[i])];
+  const double t = lining.drawn_thickness(), sets = b.thickness / lining.spacing;
+  BeamSection section;
+  section.young = young_of(model, lining, material);
+  section.shear_modulus = material.young / (2.0 * (1.0 + material.poisson));
+  section.area = lining.area ? sets * *lining.area : b.thickness * t;
+  section.inertia = lining.inertia ? sets * *lining.inertia : b.thickness * t * t * t / 12.0;
+  const std::vector<Vec2> drawn = drawn_nodes(b.meshes);
+  zones.piece_of_pair.resize(zones.pair.size(), no_piece);
+  for (std::uint32_t p = zones.pair_begin[i]; p < zones.pair.size(); ++p) {
+    zones.piece_of_pair[p] = static_cast<std::uint32_t>(zones.piece.size());
+    const BeamCorners x = corners_of(b.meshes, zones.pair[p], drawn);
+    const double mass = corner_mass(zones, b, p);
+    zones.piece.push_back({beam_shape(section, x, mass), static_cast<std::uint32_t>(b.lining[i]),
+                           section.area, 2.0 * section.inertia / t, p});
+  }
+}
+
+double highest_square_of_piece(const ZoneModel& zones, const BlockSet& b,
+                               const std::vector<Vec2>& drawn, std::size_t p) {
+  const auto at = static_cast<std::uint32_t>(p);
+  return highest_square(zones.piece[zones.piece_of_pair[p]].shape,
+                        corners_of(b.meshes, zones.pair[p], drawn), corner_mass(zones, b, at));
+}
+
+BeamCorners corners_of_piece(const BlockSet& b, const ZoneModel& model, const State& s,
+                             std::size_t p) {
+  const auto& [one, other] = model.pair[p];
+  const auto at = [&](std::uint32_t j) {
+    return mesh_node_at(b, s.position, model.pair_block[p], j);
+  };
+  const auto& [a, c, d] = b.meshes.zone[one];
+  return {at(a), at(c), at(d), at(b.meshes.zone[other][2])};
+}
+
+}  // namespace edda

@@ -1,0 +1,180 @@
+// Linings against closed-form solutions: beams, their vibration, and a ring under pressure:
+// validation.md rows 81 to 83.
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "blocks/build_blocks.hpp"
+#include "step/energy_balance.hpp"
+#include "verification/record.hpp"
+#include "verification/scene.hpp"
+#include "verification/settled.hpp"
+
+namespace edda::lining_test {
+namespace {
+
+using std::numbers::pi;
+
+constexpr double young = 30e9, poisson = 0.2, density = 2500.0, thick = 0.3;
+constexpr double in_plane = young / (1.0 - poisson * poisson);
+constexpr double bending = in_plane * thick * thick * thick / 12.0, axial = in_plane * thick;
+constexpr double shear = 5.0 / 6.0 * 12.5e9 * thick;
+/// Of the boundary springs of a clamp, at the two corners of a section.
+constexpr double spring = 1e12;
+constexpr double clamp = 2.0 * spring * (0.5 * thick) * (0.5 * thick);
+
+std::string concrete(const std::string& more) {
+  return "gravity = [0, 0]\n[materials.concrete]\ndensity = 2500\nyoung = 30e9\npoisson = 0.2\n"
+         "[joints.rough]\nfriction_angle = 30\n" +
+         more;
+}
+std::string lining(const std::string& along, const std::string& more = "") {
+  return "[[lining]]\nname = 'beam'\nalong = " + along + "\nthickness = 0.3\n" + more;
+}
+std::string boundary(const std::string& along, const std::string& type = "fixed") {
+  return "[[boundary]]\ntype = '" + type + "'\nstiffness = 1e12\nalong = " + along + "\n";
+}
+std::string force(Vec2 at, Vec2 f) {
+  return "[[load]]\npoint = [" + number(at.x) + ", " + number(at.y) + "]\nforce = [" + number(f.x) +
+         ", " + number(f.y) + "]\n";
+}
+const std::string to_rest = "[[stage]]\nuntil = 'equilibrium'\nratio = 1e-7\n";
+
+/// Middle of section k (0: the first), and its displacement.
+Vec2 middle(const Simulation& sim, std::uint32_t k, bool displaced = true) {
+  const BlockSet& b = sim.scene->blocks;
+  const StripSections s = sections_of(b, 0);
+  const auto at = [&](Id v) {
+    return Vec2{sim.motion.pose.x[v], sim.motion.pose.y[v]} - (displaced ? b.vertex(v) : Vec2{});
+  };
+  return 0.5 * (at(s.outer(k)) + at(s.inner(k)));
+}
+const BeamForces& forces(const Simulation& sim, std::size_t piece) {
+  return sim.motion.zones.piece[piece].forces;
+}
+
+TEST(Lining, StraightCantilever) {
+  constexpr double length = 4.0, load = 1e3;
+  const std::string model =
+      concrete(lining("[[0, -0.15], [4, -0.15]]", "size = 0.25\n") +
+               boundary("[[0, -0.15], [0, 0.15]]") + force({4, 0}, {0, load}) + to_rest);
+  const Simulation& sim = settled(model).sim;
+  const double exact = load * (length * length * length / (3.0 * bending) + length / shear +
+                               length * length / clamp + 0.5 / spring);
+  expect_relative({81, "straight", "deflection", "m"}, middle(sim, 16).y, exact, 1e-3);
+  expect_relative({81, "straight", "moment at the clamp", "N m"}, forces(sim, 0).moment[0],
+                  load * length, 1e-3);
+}
+
+TEST(Lining, QuarterCircle) {
+  constexpr double radius = 4.0, load = 1e3;
+  std::string along = "[";
+  for (int k = 0; k <= 96; ++k) {
+    const double a = 0.5 * pi * k / 96, r = radius + 0.5 * thick;
+    along +=
+        (k == 0 ? "[" : ", [") + number(r * std::cos(a)) + ", " + number(r * std::sin(a)) + "]";
+  }
+  // The first section stands at right angles to the first chord.
+  const double turn = pi / 384;
+  const Vec2 inner = Vec2{radius + 0.5 * thick, 0.0} - thick * Vec2{std::cos(turn), std::sin(turn)};
+  const std::string clamped = "[[" + number(radius + 0.5 * thick) + ", 0], [" + number(inner.x) +
+                              ", " + number(inner.y) + "]]";
+  const std::string model = concrete(lining(along + "]", "size = 1\n") + boundary(clamped) +
+                                     force({0, 4}, {0, -load}) + to_rest);
+  const Simulation& sim = settled(model).sim;
+  const double exact = load * (0.25 * pi * (std::pow(radius, 3) / bending + radius / shear) +
+                               radius * radius / clamp + 0.5 / spring);
+  expect_relative({81, "quarter circle", "deflection", "m"}, -middle(sim, 96).y, exact, 1e-3);
+}
+
+/// The first frequency of a cantilever, after Timoshenko's correction of order (t/L)^2 by Rayleigh:
+/// shear and rotary inertia, here (t/2)^2 of the sections.
+TEST(Lining, VibrationOfACantilever) {
+  constexpr double length = 6.0;
+  const std::string model = concrete(
+      lining("[[0, -0.15], [6, -0.15]]", "size = 0.25\n") + boundary("[[0, -0.15], [0, 0.15]]") +
+      "[[load]]\nname = 'push'\npoint = [6, 0]\nforce = [0, 1e4]\n"
+      "[[stage]]\nuntil = 'equilibrium'\n"
+      "[[stage]]\ndeactivate = ['push']\nduration = 0.6\n[output]\nevery = 0.001\n");
+  Result<Model> read = read_model_text(model, EDDA_SOURCE_DIR "/scene.toml", {});
+  ASSERT_TRUE(read.ok()) << to_string(read.faults().front());
+  PreparedRun ready = prepare_run(std::move(read.value())).value();
+  std::vector<double> crossings;
+  double before = 0.0, time_before = 0.0, error = 0.0;
+  RunOptions options;
+  options.after_step = [&] {
+    const double y = middle(ready.sim, 24).y, t = ready.sim.motion.state.time;
+    if (before > 0.0 && y <= 0.0)
+      crossings.push_back(time_before + (t - time_before) * before / (before - y));
+    before = y;
+    time_before = t;
+    return false;
+  };
+  const Result<Outcome> outcome = run_model(ready, options);
+  ASSERT_TRUE(outcome.ok());
+  error = outcome.value().energy.error;
+  ASSERT_GE(crossings.size(), 3u);
+  const double period = (crossings.back() - crossings.front()) / double(crossings.size() - 1);
+  const double root = 1.875104, square = std::pow(root / length, 4) * bending / (density * thick);
+  // Of the first mode: integrals of the squares of its slope and of its curvature and third
+  // derivative, by the square of itself: 4.648/L^2 for the slope.
+  const double slope = 4.648 / (length * length), inertia = 0.25 * thick * thick;
+  const double softer = bending / shear * slope + inertia * slope;
+  expect_relative({82, "", "period", "s"}, period, 2.0 * pi / std::sqrt(square / (1.0 + softer)),
+                  5e-3);
+  EXPECT_LT(std::abs(error), 1e-6);
+}
+
+/// A ring in vacuum under pressure from outside: N = -p r, u = p r^2/EA.
+TEST(Lining, RingUnderPressure) {
+  constexpr double radius = 4.0, pressure = 1e5;
+  std::string ring = "[";
+  for (int k = 0; k <= 64; ++k) {
+    const double a = 2.0 * pi * (k % 64) / 64;
+    ring += (k == 0 ? "[" : ", [") + number(radius * std::cos(a)) + ", " +
+            number(radius * std::sin(a)) + "]";
+  }
+  ring += "]";
+  const std::string model = concrete(lining(ring, "size = 1\n") + "[[load]]\nalong = " + ring +
+                                     "\npressure = 1e5\n[[stage]]\nduration = 0.1\ndamping = "
+                                     "{ local = 0.5 }\n");
+  const Simulation& sim = settled(model).sim;
+  const double mean = radius - 0.5 * thick;
+  expect_relative({81, "ring", "thrust", "N"}, -forces(sim, 5).axial, pressure * radius, 2e-3);
+  expect_relative({81, "ring", "decrease of the radius", "m"}, -middle(sim, 0).x,
+                  pressure * radius * mean / axial, 4e-3);
+}
+
+/// A beam on two supports under a force at its middle becomes a mechanism at P = 4 M_p/L, with M_p
+/// = f t^2/4: ramped in steps of half a per cent.
+TEST(Lining, ThreePointCollapse) {
+  constexpr double length = 4.0, yield = 20e6, collapse = yield * thick * thick / length;
+  const std::string support = "[[boundary]]\ntype = 'roller'\nstiffness = 1e10\nalong = ";
+  const std::string model =
+      concrete(lining("[[0, -0.15], [4, -0.15]]",
+                      "size = 0.5\ncompressive_strength = 20e6\ntensile_strength = 20e6\n") +
+               support + "[[-0.05, -0.15], [0.05, -0.15]]\n" + support +
+               "[[3.95, -0.15], [4.05, -0.15]]\n[[load]]\nname = 'press'\npoint = [2, 0]\n"
+               "force = [0, -1]\n[[stage]]\nuntil = 'collapse'\n"
+               "ramp = { 'load:press' = [" +
+               number(0.97 * collapse) + ", " + number(1.03 * collapse) +
+               "], hold = 'equilibrium', steps = 12 }\n");
+  Result<Model> read = read_model_text(model, EDDA_SOURCE_DIR "/scene.toml", {});
+  ASSERT_TRUE(read.ok()) << to_string(read.faults().front());
+  PreparedRun ready = prepare_run(std::move(read.value())).value();
+  const Result<Outcome> outcome = run_model(ready, RunOptions{});
+  ASSERT_TRUE(outcome.ok());
+  // "... holds at load:press = 447750 and fails at load:press = 450000: ..."
+  const std::string& text = outcome.value().message;
+  const std::size_t at = text.find("fails at load:press = ");
+  ASSERT_NE(at, std::string::npos) << text;
+  expect_relative({83, "", "load that fails", "N"}, std::stod(text.substr(at + 22)), collapse,
+                  1e-2);
+  const BeamForces& middle_piece = forces(ready.sim, 3);
+  expect_relative({83, "", "moment of the hinge", "N m"}, middle_piece.moment[1],
+                  0.25 * yield * thick * thick, 1e-3);
+  EXPECT_GT(ready.sim.motion.zones.piece[3].hinge[1], 1e-3);
+}
+
+}  // namespace
+}  // namespace edda::lining_test
