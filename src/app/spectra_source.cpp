@@ -83,9 +83,10 @@ std::vector<std::string> monitors_in(const Table& history, std::string_view endi
   return names;
 }
 
-/// The rows of the stage. That at its start is still without a reset of displacements.
+/// The rows of the stage. That at its start is still without a reset of displacements and, where
+/// velocities are `absolute`, without the ground's velocity that a stage takes off them.
 MotionRecord record_of(const Table& history, const std::string& monitor,
-                       const std::string& direction, const ShakenStage& stage) {
+                       const std::string& direction, const ShakenStage& stage, bool absolute) {
   const auto values = [&](const char* of) {
     return history.column(monitor + '.' + of + direction)->values;
   };
@@ -99,10 +100,13 @@ MotionRecord record_of(const Table& history, const std::string& monitor,
     const bool first = record.time.empty();
     if (first && !stage.resets) origin = u[r];
     record.time.push_back(time[r]);
-    record.acceleration.push_back(a[r]);
+    record.acceleration.push_back(first ? 0.0 : a[r]);
     record.velocity.push_back(v[r]);
     record.displacement.push_back(first ? 0.0 : u[r] - origin);
   }
+  if (absolute && record.time.size() > 1)
+    record.velocity[0] =
+        record.velocity[1] - record.acceleration[1] * (record.time[1] - record.time[0]);
   return record;
 }
 
@@ -143,32 +147,18 @@ void compare(ShakenStage& stage, const std::vector<std::string>& between) {
   }
 }
 
-/// How far apart rows are against the shortest period, and against what swings between them.
-/// `absolute`: whether velocities are in the frame of the accelerations.
-void note_coarse_rows(const ShakenStage& stage, const SpectraArguments& args, bool absolute,
+/// How far apart rows are against the shortest period.
+void note_coarse_rows(const ShakenStage& stage, const SpectraArguments& args,
                       std::vector<std::string>& notes) {
   const std::vector<double>& time = stage.motions.front().record.time;
   double widest = 0.0;
   for (std::size_t r = 1; r < time.size(); ++r) widest = std::max(widest, time[r] - time[r - 1]);
-  constexpr double tenth = 0.1, visible = 0.1;
-  if (widest > tenth * args.periods[0] * (1.0 + 1e-9)) {
-    notes.push_back(fmt::format(
-        "rows up to {:.3g} s apart: what swings in less than {:.3g} s is not resolved; set "
-        "output.history_every (\"record\") for shorter periods, or raise the first of --periods",
-        widest, widest / tenth));
-  }
-  std::string swinging;
-  for (const MonitorMotion& m : stage.motions) {
-    const double error = error_of_integral(m.record);
-    if (!absolute || error <= visible) continue;
-    swinging += fmt::format("{}{}.a{} {:.0f} %", swinging.empty() ? "" : ", ", m.monitor,
-                            m.direction, 100.0 * error);
-  }
-  if (!swinging.empty())
-    notes.push_back(
-        "accelerations whose integrals depart from the velocities: " + swinging +
-        ": they swing between rows, as from contacts that open and close; set a shorter "
-        "output.history_every");
+  constexpr double rows = 5.0;  // in a period that they resolve
+  if (rows * widest <= args.periods[0] * (1.0 + 1e-9)) return;
+  notes.push_back(fmt::format(
+      "rows up to {:.3g} s apart: what swings in less than {:.3g} s is not resolved; set "
+      "output.history_every for shorter periods, or raise the first of --periods",
+      widest, rows * widest));
 }
 
 Fault fault_of_arguments(const char* key, std::string problem, std::string remedy) {
@@ -212,14 +202,15 @@ std::optional<Fault> check_monitors(const Table& history, const SpectraArguments
   return {};
 }
 
-void fill(ShakenStage& stage, const Table& history, const SpectraArguments& args,
+/// `absolute`: whether velocities are in the frame of the accelerations.
+void fill(ShakenStage& stage, const Table& history, const SpectraArguments& args, bool absolute,
           const std::vector<double>& periods) {
   for (const std::string& monitor : monitors_in(history, ".ax")) {
     for (const char* direction : directions) {
-      MonitorMotion m{monitor, direction, record_of(history, monitor, direction, stage), {}, {}};
+      MonitorMotion m{
+          monitor, direction, record_of(history, monitor, direction, stage, absolute), {}, {}};
       m.measures = measures_of(m.record);
-      m.spectrum =
-          response_spectrum(m.record.time, m.record.acceleration, 0.01 * args.damping, periods);
+      m.spectrum = response_spectrum(pieces_of(m.record), 0.01 * args.damping, periods);
       stage.motions.push_back(std::move(m));
     }
   }
@@ -252,8 +243,8 @@ Result<Spectra> find_spectra(const SpectraArguments& args) {
   }
   found.stages = stages_in(args.source, model, history.column("time")->values);
   for (ShakenStage& stage : found.stages) {
-    fill(stage, history, args, found.periods);
-    note_coarse_rows(stage, args, absolute, found.notes);
+    fill(stage, history, args, absolute, found.periods);
+    note_coarse_rows(stage, args, found.notes);
   }
   return found;
 }

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "model/files/accelerogram.hpp"
+
 namespace edda {
 
 Ground find_ground(const Model& model, const BlockSet& b) {
@@ -18,13 +20,24 @@ Ground find_ground(const Model& model, const BlockSet& b) {
   return ground;
 }
 
+Vec2 ground_acceleration(const Model& model, const ActiveIntervals& intervals, double time) {
+  Vec2 a;
+  for (std::size_t q = 0; q < model.shakings.size(); ++q) {
+    const Shaking& shaking = model.shakings[q];
+    const ActiveInterval& interval = intervals.shakings[q];
+    const double part = interval.part(time);
+    if (shaking.apply != ShakingKind::base || part == 0.0) continue;
+    a += part * acceleration_at(shaking, time - interval.since);
+  }
+  return a;
+}
+
 GroundStep next_ground(const Model& model, const Loads& loads, const Ground& ground,
                        const BoundarySprings& springs, double time, double h_old, double h_new) {
   const ActiveIntervals& intervals = loads.intervals;
   GroundStep next;
   next.velocity =
-      ground.velocity +
-      (0.5 * (h_old + h_new)) * ground_acceleration(model, intervals, ShakingKind::base, time);
+      ground.velocity + (0.5 * (h_old + h_new)) * ground_acceleration(model, intervals, time);
   next.shift = ground.shift + h_new * next.velocity;
   next.shifts = springs.shift;
   for (std::size_t q = 0; q < next.shifts.size(); ++q) {

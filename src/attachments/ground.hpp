@@ -29,6 +29,9 @@ struct GroundStep {
 
 Ground find_ground(const Model& model, const BlockSet& blocks);
 
+/// Acceleration of the ground by ground motions of kind "base", m/s2.
+Vec2 ground_acceleration(const Model& model, const ActiveIntervals& intervals, double time);
+
 /// The ground one step after `time`, with h_old and h_new the last and the next step (s). A
 /// boundary of type velocity also moves with its velocity at the middle of the step, one of type
 /// displacement is displaced from the ground by what its factor then is.

@@ -106,17 +106,14 @@ double displacement_factor(const Model& model, const Loads& loads, std::size_t r
          model.boundaries[row].factor.at(time - interval.since, 1.0);
 }
 
-Vec2 ground_acceleration(const Model& model, const ActiveIntervals& intervals, ShakingKind kind,
-                         double time) {
-  Vec2 a;
+Vec2 frame_velocity(const Model& model, const ActiveIntervals& intervals, double time) {
+  Vec2 v;
   for (std::size_t q = 0; q < model.shakings.size(); ++q) {
-    const Shaking& shaking = model.shakings[q];
+    if (model.shakings[q].apply != ShakingKind::inertia) continue;
     const ActiveInterval& interval = intervals.shakings[q];
-    const double part = interval.part(time);
-    if (shaking.apply != kind || part == 0.0) continue;
-    a += part * acceleration_at(shaking, time - interval.since);
+    v += velocity_at(model.shakings[q], std::min(time, interval.until) - interval.since);
   }
-  return a;
+  return v;
 }
 
 LoadsNow loads_at(const Model& model, const Loads& loads, double time) {
@@ -124,7 +121,13 @@ LoadsNow loads_at(const Model& model, const Loads& loads, double time) {
   const GradualChange& gradual = loads.gradual;
   now.to_come =
       model.gravity - gradual.of_weight() * gravity_at(model.gravity, loads.slow, time, gradual);
-  now.frame = ground_acceleration(model, loads.intervals, ShakingKind::inertia, time);
+  for (std::size_t q = 0; q < model.shakings.size(); ++q) {
+    const Shaking& shaking = model.shakings[q];
+    const ActiveInterval& interval = loads.intervals.shakings[q];
+    const double part = interval.part(time);
+    if (shaking.apply != ShakingKind::inertia || part == 0.0) continue;
+    now.frame += part * acceleration_at(shaking, time - interval.since);
+  }
   if (loads.blocks.empty()) return now;
   now.loads = &loads;
   const auto add_factors = [&](const auto& items, const std::vector<ActiveInterval>& intervals,

@@ -262,7 +262,6 @@ EDDA_API std::size_t components_of(Field field);
 struct MonitorReading {
   double ux = 0.0, uy = 0.0, vx = 0.0, vy = 0.0;  ///< m; m/s
   double sxx = 0.0, syy = 0.0, sxy = 0.0;         ///< Pa, of its block
-  double ax = 0.0, ay = 0.0;                      ///< m/s2, in a frame at rest
 };
 
 /// [3] spans of nb numbers each: node k of block i is the k-th span's element i.

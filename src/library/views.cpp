@@ -289,8 +289,8 @@ MonitorReading Simulation::read(const std::string& monitor) const {
   for (const MonitorPoint& m : impl_->prepared.gauges.monitors) {
     if (m.name != monitor) continue;
     const edda::MonitorReading r = read_monitor(impl_->sim(), impl_->look(), m);
-    return {r.displacement.x, r.displacement.y, r.velocity.x,     r.velocity.y,    r.stress.xx,
-            r.stress.yy,      r.stress.xy,      r.acceleration.x, r.acceleration.y};
+    return {r.displacement.x, r.displacement.y, r.velocity.x, r.velocity.y,
+            r.stress.xx,      r.stress.yy,      r.stress.xy};
   }
   raise("read", "there is no monitor \"" + monitor + '"', "add_monitor() it, or see monitors()");
 }

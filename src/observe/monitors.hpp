@@ -41,10 +41,12 @@ double convergence(const BlockSet& blocks, const State& state, const Convergence
 /// Displacement of the point, m.
 Vec2 displacement_of(const BlockSet& blocks, const State& state, const MonitorPoint& point);
 
-/// Displacement, velocity and acceleration (acceleration_at()) of the point, and the stress of its
-/// block.
+/// Velocity of the point in a frame at rest, m/s: with that of the ground under apply = "inertia".
+Vec2 absolute_velocity(const Simulation& sim, const Instant& at, const MonitorPoint& point);
+
+/// Displacement and velocity of the point, and the stress of its block.
 struct MonitorReading {
-  Vec2 displacement, velocity, acceleration;
+  Vec2 displacement, velocity;
   BlockStress stress;
 };
 MonitorReading read_monitor(const Simulation& sim, const Instant& at, const MonitorPoint& point);

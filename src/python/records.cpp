@@ -267,21 +267,18 @@ void add_ledger(py::module_& m) {
 
 void add_monitor_reading(py::module_& m) {
   py::class_<api::MonitorReading> reading(
-      m, "MonitorReading", "A material point and its block: m, m/s, m/s2, Pa (tension positive).");
+      m, "MonitorReading", "A material point and its block: m, m/s, Pa (tension positive).");
   reading.def_readonly("ux", &api::MonitorReading::ux, "m")
       .def_readonly("uy", &api::MonitorReading::uy, "m")
       .def_readonly("vx", &api::MonitorReading::vx, "m/s")
       .def_readonly("vy", &api::MonitorReading::vy, "m/s")
-      .def_readonly("ax", &api::MonitorReading::ax, "m/s2, in a frame at rest")
-      .def_readonly("ay", &api::MonitorReading::ay, "m/s2")
       .def_readonly("sxx", &api::MonitorReading::sxx, "Pa")
       .def_readonly("syy", &api::MonitorReading::syy, "Pa")
       .def_readonly("sxy", &api::MonitorReading::sxy, "Pa");
   add_pickling(reading, &api::MonitorReading::ux, &api::MonitorReading::uy,
                &api::MonitorReading::vx, &api::MonitorReading::vy, &api::MonitorReading::sxx,
-               &api::MonitorReading::syy, &api::MonitorReading::sxy, &api::MonitorReading::ax,
-               &api::MonitorReading::ay);
-  add_repr(reading, {"ux", "uy", "vx", "vy", "ax", "ay", "sxx", "syy", "sxy"});
+               &api::MonitorReading::syy, &api::MonitorReading::sxy);
+  add_repr(reading, {"ux", "uy", "vx", "vy", "sxx", "syy", "sxy"});
 }
 
 }  // namespace

@@ -13,16 +13,14 @@ double largest(const std::vector<double>& values) {
   return most;
 }
 
-/// I = pi/(2 g) int a^2 dt up to each row (Arias 1970), with a linear between rows:
-/// dt (a_0^2 + a_0 a_1 + a_1^2)/3.
-std::vector<double> arias_up_to(const MotionRecord& m) {
+/// I = pi/(2 g) int a^2 dt up to each row (Arias 1970), in each piece h (a_0^2 + a_0 a_1 +
+/// a_1^2)/3.
+std::vector<double> arias_up_to(const std::vector<AccelerationPiece>& pieces) {
   constexpr double standard_gravity = 9.80665;  // m/s2
-  std::vector<double> sum(m.time.size(), 0.0);
-  for (std::size_t r = 1; r < sum.size(); ++r) {
-    const double a = m.acceleration[r - 1], b = m.acceleration[r];
-    sum[r] = sum[r - 1] + std::numbers::pi / (2.0 * standard_gravity) *
-                              (m.time[r] - m.time[r - 1]) * (a * a + a * b + b * b) / 3.0;
-  }
+  std::vector<double> sum{0.0};
+  for (const auto& [h, a, b] : pieces)
+    sum.push_back(sum.back() +
+                  std::numbers::pi / (2.0 * standard_gravity) * h * (a * a + a * b + b * b) / 3.0);
   return sum;
 }
 
@@ -90,6 +88,30 @@ struct Largest {
 
 }  // namespace
 
+/// With mean a and slope s, v_1 - v_0 = a h and u_1 - u_0 = (v_0 + v_1) h/2 - s h^3/12. The ground
+/// under apply = "inertia" is what a has beyond the change of v; its slope is that from the
+/// interval before to the one after.
+std::vector<AccelerationPiece> pieces_of(const MotionRecord& m) {
+  const std::vector<double>&t = m.time, &v = m.velocity, &u = m.displacement;
+  std::vector<double> ground, middle;
+  for (std::size_t r = 1; r < t.size(); ++r) {
+    const double h = t[r] - t[r - 1];
+    ground.push_back(h > 0.0 ? m.acceleration[r] - (v[r] - v[r - 1]) / h : 0.0);
+    middle.push_back(0.5 * (t[r - 1] + t[r]));
+  }
+  std::vector<AccelerationPiece> pieces;
+  for (std::size_t r = 1; r < t.size(); ++r) {
+    const double h = t[r] - t[r - 1];
+    const std::size_t low = std::max<std::size_t>(r, 2) - 2, high = std::min(r, ground.size() - 1);
+    double rise = 0.0;  // half of s h
+    if (h > 0.0) rise = 6.0 / h * (0.5 * (v[r - 1] + v[r]) - (u[r] - u[r - 1]) / h);
+    if (middle[high] > middle[low])
+      rise += 0.5 * h * (ground[high] - ground[low]) / (middle[high] - middle[low]);
+    pieces.push_back({h, m.acceleration[r] - rise, m.acceleration[r] + rise});
+  }
+  return pieces;
+}
+
 MotionMeasures measures_of(const MotionRecord& m) {
   MotionMeasures found;
   found.peak_acceleration = largest(m.acceleration);
@@ -97,7 +119,7 @@ MotionMeasures measures_of(const MotionRecord& m) {
   found.peak_displacement = largest(m.displacement);
   if (m.time.empty()) return found;
   found.permanent_displacement = m.displacement.back();
-  const std::vector<double> sum = arias_up_to(m);
+  const std::vector<double> sum = arias_up_to(pieces_of(m));
   found.arias = sum.back();
   if (found.arias > 0.0)
     found.arias_duration =
@@ -105,22 +127,19 @@ MotionMeasures measures_of(const MotionRecord& m) {
   return found;
 }
 
-ResponseSpectrum response_spectrum(const std::vector<double>& time,
-                                   const std::vector<double>& acceleration, double damping,
+ResponseSpectrum response_spectrum(const std::vector<AccelerationPiece>& pieces, double damping,
                                    const std::vector<double>& periods) {
   constexpr double looks = 20.0;  // in a period, at least
   ResponseSpectrum spectrum;
   for (const double period : periods) {
     Oscillator o{2.0 * std::numbers::pi / period, damping};
     Largest largest;
-    for (std::size_t r = 1; r < time.size(); ++r) {
-      const double between = time[r] - time[r - 1];
-      if (!(between > 0.0)) continue;
-      const double parts = std::ceil(looks * between / period);
-      const double slope = (acceleration[r] - acceleration[r - 1]) / between;
-      const ExactStep step(o, between / parts);
+    for (const auto& [length, from, to] : pieces) {
+      if (!(length > 0.0)) continue;
+      const double parts = std::ceil(looks * length / period), slope = (to - from) / length;
+      const ExactStep step(o, length / parts);
       for (double k = 0.0; k < parts; k += 1.0) {
-        const double a = acceleration[r - 1] + slope * step.h * k;
+        const double a = from + slope * step.h * k;
         const Oscillator before = o;
         step.move(o, a, slope);
         largest.look(before, o, a, slope, step.h);
@@ -141,17 +160,6 @@ std::vector<double> in_equal_ratios(double low, double high, std::size_t count) 
   }
   values.push_back(high);
   return values;
-}
-
-double error_of_integral(const MotionRecord& m) {
-  double integral = 0.0, most = 0.0, error = 0.0;
-  for (std::size_t r = 1; r < m.time.size(); ++r) {
-    integral += 0.5 * (m.time[r] - m.time[r - 1]) * (m.acceleration[r - 1] + m.acceleration[r]);
-    const double change = m.velocity[r] - m.velocity.front();
-    most = std::max(most, std::abs(change));
-    error = std::max(error, std::abs(change - integral));
-  }
-  return most > 0.0 ? error / most : 0.0;
 }
 
 }  // namespace edda

@@ -6,13 +6,23 @@
 
 namespace edda {
 
-/// One component of the motion of a point, linear between its rows.
+/// Rows of one component of the motion of a point.
 struct MotionRecord {
   std::vector<double> time;          ///< s, ascending
-  std::vector<double> acceleration;  ///< m/s2
-  std::vector<double> velocity;      ///< m/s
-  std::vector<double> displacement;  ///< m, since the first row
+  std::vector<double> acceleration;  ///< m/s2 in a frame at rest, the mean since the row before
+  std::vector<double> velocity;      ///< m/s; under apply = "inertia" relative to the ground
+  std::vector<double> displacement;  ///< m since the first row, as the velocity
 };
+
+/// An interval of `length` s in which the acceleration goes linearly from one value to another.
+struct AccelerationPiece {
+  double length, from, to;  ///< s, m/s2
+};
+
+/// The interval from each row to the next. Its acceleration gives the changes of velocity and of
+/// displacement that the rows have, however fast the motion swings between them; of a smooth motion
+/// an oscillator feels it with an error of fourth order in the interval over its period.
+std::vector<AccelerationPiece> pieces_of(const MotionRecord& motion);
 
 struct MotionMeasures {
   double peak_acceleration = 0.0, peak_velocity = 0.0, peak_displacement = 0.0;  ///< magnitudes
@@ -29,16 +39,10 @@ struct ResponseSpectrum {
   std::vector<double> relative_displacement;  ///< m, to the ground
 };
 /// `damping`: part of critical, below 1; periods: s, above 0.
-ResponseSpectrum response_spectrum(const std::vector<double>& time,
-                                   const std::vector<double>& acceleration, double damping,
+ResponseSpectrum response_spectrum(const std::vector<AccelerationPiece>& pieces, double damping,
                                    const std::vector<double>& periods);
 
 /// `count` numbers from `low` to `high`, in equal ratios; both above 0, count at least 2.
 std::vector<double> in_equal_ratios(double low, double high, std::size_t count);
-
-/// The largest difference of the change of velocity since the first row and the integral of the
-/// acceleration, over the largest change; 0 where there is none. Accelerations that swing faster
-/// than rows follow each other do not integrate to the velocity.
-double error_of_integral(const MotionRecord& motion);
 
 }  // namespace edda

@@ -59,7 +59,7 @@ constexpr std::array history{
     C{"NAME.vy", "m/s", "Velocity of a monitor upwards.", ColumnOf::monitor},
     C{"NAME.ax", "m/s2",
       "Acceleration of a monitor to the right in a frame at rest, with that of the ground under "
-      "apply = inertia; what an accelerometer records there.",
+      "apply = inertia: the mean since the row before.",
       ColumnOf::monitor},
     C{"NAME.ay", "m/s2", "The same upwards, without gravity: 0 at rest, -g in free fall.",
       ColumnOf::monitor},

@@ -229,6 +229,7 @@ void Driver::list(Archive& a) {
   a("files.bolts_bytes", files.bolts_bytes);
   if (!sim_.scene->model.linings.empty()) a("files.linings_bytes", files.linings_bytes);
   a("files.frame_times", files.frame_times);
+  a("files.velocities", files.velocities);
   // For each file its name, a line break, and its hash.
   std::string inputs;
   for (const InputFile& f : files.inputs) inputs += f.file + '\n' + f.sha256 + '\n';

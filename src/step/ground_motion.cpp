@@ -27,8 +27,8 @@ PoreWater water_in_pores(const Simulation& sim) {
 Vec2 ground_velocity(const Simulation& sim) {
   const State& state = sim.motion.state;
   return sim.attached.ground.velocity +
-         (0.5 * state.step) * ground_acceleration(sim.scene->model, sim.attached.loads.intervals,
-                                                  ShakingKind::base, state.time);
+         (0.5 * state.step) *
+             ground_acceleration(sim.scene->model, sim.attached.loads.intervals, state.time);
 }
 
 namespace {
@@ -100,7 +100,7 @@ void start_ground(Simulation& sim, double h) {
   Pose& pose = sim.motion.pose;
   if (!ground.moves) return;
   ground.velocity = (-0.5 * h) * ground_acceleration(sim.scene->model, sim.attached.loads.intervals,
-                                                     ShakingKind::base, sim.motion.state.time);
+                                                     sim.motion.state.time);
   ground.shift_1 = ground.shift - h * ground.velocity;
   springs.shift_1.assign(springs.shift.size(), ground.shift_1);
   for (const Id i : ground.fixed_blocks) {

@@ -3,7 +3,6 @@
 
 #include <vector>
 
-#include "blocks/block_point.hpp"
 #include "blocks/state.hpp"
 #include "forces/nodal_forces.hpp"
 
@@ -23,11 +22,5 @@ struct Instant {
 /// Fills `at` from the simulation after start() or step(). The contacts at that instant are those
 /// of the simulation. An Instant that is filled again keeps its memory.
 void observe(const Simulation& sim, Instant& at);
-
-/// Acceleration at n of a point of a block in a frame at rest, m/s2: what an accelerometer there
-/// records. Of the motion itself, damping and all, a_n = 2 (v_n - v_{n-1/2})/h. Newmark's method
-/// has it, too: with v_{n-1/2} = D/h that is a_n of v_n = v_{n-1} + h a_n (Eq. 7). `at`: as
-/// observe() fills it.
-Vec2 acceleration_at(const Simulation& sim, const Instant& at, const BlockPoint& point);
 
 }  // namespace edda

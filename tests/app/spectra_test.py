@@ -131,5 +131,136 @@ class Spectra(Program):
         self.assertIn("holds no monitor", self.expect(2, "spectra", "m").stderr)
 
 
+ROCK = """
+[materials.rock]
+density = 2500.0
+young = 5e9
+poisson = 0.2
+[joints.j]
+friction_angle = 20.0
+[[block]]
+fixed = true
+polygon = [[-9, -1], [9, -1], [9, 0], [-9, 0]]
+[[monitor]]
+name = "base"
+point = [0.0, -0.5]
+[[monitor]]
+name = "block"
+point = [0.0, 0.25]
+"""
+
+
+class Accelerations(Program):
+    """NAME.ax and NAME.ay: the mean since the row before, in a frame at rest."""
+
+    def rows(self, text, *more):
+        (self.dir / "m.toml").write_text(ROCK + text)
+        self.expect(0, "run", "m.toml", "--quiet", *more)
+        return [{k: float(v) for k, v in row.items()} for row in read_rows(self.dir / "m/history.csv")]
+
+    def block(self, above=0.0, left=-0.5, right=0.5):
+        low, high = above, above + 0.5
+        return f"[[block]]\npolygon = [[{left}, {low}], [{right}, {low}], [{right}, {high}], [{left}, {high}]]\n"
+
+    def shaken(self, apply, amplitude, more):
+        return (f"[[shaking]]\nname = 'quake'\nacceleration = {{ amplitude = {amplitude}, frequency = 2 }}\n"
+                f"apply = '{apply}'\n[output]\n" + more)
+
+    def test_of_gravity_in_free_fall_and_none_at_rest(self):
+        for method in ("", "method = 'dda'\n"):
+            falls = self.rows(self.block(1.0) + "[output]\nhistory_every = 0.02\n[solver]\nduration = 0.2\n" + method,
+                              "--set", "monitor.block.point=[0, 1.25]")
+            self.assertEqual(falls[0]["block.ay"], 0.0)
+            for row in falls[1:]:
+                self.assertAlmostEqual(row["block.ay"], -9.81, delta=1e-6)
+                self.assertAlmostEqual(row["block.ax"], 0.0, delta=1e-6)
+            rest = self.rows(self.block() + "[output]\nhistory_every = 0.05\n[solver]\nduration = 0.5\n"
+                             "damping = { mass = 100 }\n" + method)
+            self.assertAlmostEqual(rest[-1]["block.ay"], 0.0, delta=5e-3)
+
+    def test_is_the_ground_s_however_it_is_applied(self):
+        means = {}
+        for apply in ("base", "inertia"):
+            rows = self.rows(self.block() + self.shaken(
+                apply, 3.0, "history_every = 0.02\n[solver]\nduration = 1\ndamping = { contact = 0.3 }\n"))
+            for last, row in zip(rows, rows[1:]):
+                exact = 3.0 / W * (math.cos(W * last["time"]) - math.cos(W * row["time"])) / (row["time"] - last["time"])
+                self.assertAlmostEqual(row["base.ax"], exact, delta=1e-3)
+                if row["time"] > 0.5:
+                    self.assertAlmostEqual(row["block.ax"], exact, delta=0.1)
+                if apply == "base":  # the acceleration integrates to the velocity
+                    self.assertAlmostEqual(row["block.vx"] - last["block.vx"], row["block.ax"] * (row["time"] - last["time"]), delta=1e-12)
+            means[apply] = [row["block.ax"] for row in rows if row["time"] > 0.5]
+        for a, b in zip(*means.values()):
+            self.assertAlmostEqual(a, b, delta=0.05)
+
+    def test_of_a_sliding_block_is_that_of_friction(self):
+        """Newmark (1965): mu g, however strong the shaking is."""
+        limit = math.tan(math.radians(20.0)) * 9.81
+        for apply in ("base", "inertia"):
+            rows = self.rows(self.block() + self.shaken(
+                apply, 12.0, "history_every = 0.01\n[solver]\nduration = 0.2\n"))
+            slides = [row["block.ax"] for row in rows if row["time"] > 0.1]
+            self.assertAlmostEqual(sum(slides) / len(slides), limit, delta=0.02 * limit)
+
+    def test_begins_anew_with_each_stage(self):
+        """Where a stage deactivates the motion, the velocity of the ground goes at once, which is no acceleration."""
+        text = self.block() + self.shaken("base", 3.0, "history_every = 0.01\nevery = 0.05\n"
+                                          "[[stage]]\nduration = 0.25\nactivate = ['quake']\n"
+                                          "[[stage]]\nduration = 0.1\ndeactivate = ['quake']\n")
+        rows = self.rows(text)
+        end = max(k for k, row in enumerate(rows) if row["time"] < 0.25 + 1e-9)
+        self.assertGreater(rows[end]["base.vx"], 0.4)
+        for key in ("base.vx", "base.ax"):
+            self.assertAlmostEqual(rows[end + 1][key], 0.0, delta=1e-15)
+        before = (self.dir / "m/history.csv").read_bytes()
+        self.rows(text, "--from", "1")
+        self.assertEqual((self.dir / "m/history.csv").read_bytes(), before)
+
+    def test_goes_on_when_resumed(self):
+        text = self.block() + self.shaken("base", 3.0, "every = 0.1\nhistory_every = 0.01\ncheckpoint_every = 1e-9\n[solver]\nduration = 0.2\n")
+        first = len(self.rows(text))
+        rows = self.rows(text.replace("duration = 0.2", "duration = 0.3"), "--resume")
+        self.assertGreater(len(rows), first + 5)
+        for last, row in zip(rows, rows[1:]):
+            self.assertAlmostEqual(row["base.ax"], (row["base.vx"] - last["base.vx"]) / (row["time"] - last["time"]), delta=1e-9)
+
+    def test_spectra_do_not_depend_on_the_interval_of_rows(self):
+        """Blocks that knock at each other: from five rows a period on the spectra are the same."""
+        pile = "".join(self.block(y, x, x + 0.49) for x in (-1.0, -0.5, 0.0, 0.5) for y in (0.0, 0.5))
+        for x in (-1.5, 1.0):
+            pile += self.block(0.0, x, x + 0.49).replace("[[block]]", "[[block]]\nfixed = true")
+        self.rows(pile + self.shaken("base", 8.0, "history_every = 0.001\nevery = 1\n[solver]\nduration = 3\n"),
+                  "--set", "monitor.block.point=[0.2, 0.75]")
+        fine, peaks = self.spectra_of_block()
+        self.thin(20)
+        coarse, smoothed = self.spectra_of_block()
+        self.assertGreater(peaks, 5.0 * smoothed)
+        for key, value in fine.items():
+            self.assertAlmostEqual(coarse[key], value, delta=0.02 * value, msg=key)
+
+    def spectra_of_block(self):
+        """Its spectral and peak acceleration along the shaking."""
+        self.expect(0, "spectra", "m", "-o", "s", "--periods", "0.1,3,12")
+        of_block = [[r for r in read_rows(self.dir / "s" / name) if (r["monitor"], r["direction"]) == ("block", "x")]
+                    for name in ("spectra.csv", "motions.csv")]
+        return {r["period"]: float(r["pseudo_acceleration"]) for r in of_block[0]}, float(of_block[1][0]["peak_acceleration"])
+
+    def thin(self, every):
+        """Leaves one in so many rows of history.csv, as a run with longer intervals of rows has them."""
+        path = self.dir / "m/history.csv"
+        with open(path, newline="", encoding="utf-8") as table:
+            reader = csv.DictReader(table)
+            names, rows = reader.fieldnames, list(reader)[::every]
+        for last, row in zip(rows, rows[1:]):
+            between = float(row["time"]) - float(last["time"])
+            for of in ("base.{}x", "base.{}y", "block.{}x", "block.{}y"):
+                row[of.format("a")] = (float(row[of.format("v")]) - float(last[of.format("v")])) / between
+        with open(path, "w", newline="", encoding="utf-8") as table:
+            writer = csv.DictWriter(table, names)
+            writer.writeheader()
+            writer.writerows(rows)
+
+
 if __name__ == "__main__":
     unittest.main()

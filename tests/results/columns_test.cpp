@@ -30,9 +30,9 @@ std::string first_line(const std::string& path) {
 }
 
 TEST(Columns, HaveAUnitAndAMeaning) {
-  const std::set<std::string_view> units{
-      "text", "1",    "s", "m", "m2",        "rad",      "m/s", "N/m", "Pa",
-      "rad/s", "m/s2", "N", "J", "as varied", "as asked", "N m"};
+  const std::set<std::string_view> units{"text", "1",         "s",        "m",     "m2",   "rad",
+                                         "m/s",  "N/m",       "Pa",       "rad/s", "m/s2", "N",
+                                         "J",    "as varied", "as asked", "N m"};
   std::set<std::string_view> files;
   for (const ResultTable& table : result_tables()) {
     EXPECT_TRUE(files.insert(table.file).second) << table.file;

@@ -428,7 +428,7 @@ class Ledger:
         """J, removed by numerical rules without physical meaning; negative: added."""
 
 class MonitorReading:
-    """A material point and its block: m, m/s, m/s2, Pa (tension positive)."""
+    """A material point and its block: m, m/s, Pa (tension positive)."""
 
     @property
     def ux(self) -> float:
@@ -442,12 +442,6 @@ class MonitorReading:
     @property
     def vy(self) -> float:
         """m/s"""
-    @property
-    def ax(self) -> float:
-        """m/s2, in a frame at rest"""
-    @property
-    def ay(self) -> float:
-        """m/s2"""
     @property
     def sxx(self) -> float:
         """Pa"""
