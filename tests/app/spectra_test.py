@@ -217,10 +217,22 @@ class Accelerations(Program):
         self.rows(text, "--from", "1")
         self.assertEqual((self.dir / "m/history.csv").read_bytes(), before)
 
+    def test_an_event_begins_without_the_velocity_that_the_one_before_left(self):
+        weak = "[[shaking]]\nname = 'weak'\nacceleration = { amplitude = 0.1, frequency = 2 }\napply = 'base'\n"
+        self.rows(self.block() + weak + self.shaken(
+            "base", 3.0, "history_every = 0.01\nevery = 0.05\n[[stage]]\nduration = 0.25\nactivate = ['quake']\n"
+            "[[stage]]\nduration = 0.5\ndeactivate = ['quake']\nactivate = ['weak']\n"))
+        self.expect(0, "spectra", "m", "-o", "s", "--periods", "0.1,3,12")
+        base = [r for r in read_rows(self.dir / "s/motions.csv") if (r["monitor"], r["direction"]) == ("base", "x")]
+        self.assertEqual([r["stage"] for r in base], ["1", "2"])
+        self.assertAlmostEqual(float(base[0]["peak_velocity"]), 6.0 / W, delta=1e-3)
+        self.assertAlmostEqual(float(base[1]["peak_velocity"]), 0.2 / W, delta=1e-4)
+        self.assertAlmostEqual(float(base[1]["arias"]), math.pi / (2 * 9.80665) * 0.1 ** 2 * 0.25, delta=1e-6)
+
     def test_goes_on_when_resumed(self):
-        text = self.block() + self.shaken("base", 3.0, "every = 0.1\nhistory_every = 0.01\ncheckpoint_every = 1e-9\n[solver]\nduration = 0.2\n")
+        text = self.block() + self.shaken("base", 3.0, "every = 0.01\nhistory_every = 0.001\ncheckpoint_every = 1e-9\n[solver]\nduration = 0.01\n")
         first = len(self.rows(text))
-        rows = self.rows(text.replace("duration = 0.2", "duration = 0.3"), "--resume")
+        rows = self.rows(text.replace("duration = 0.01", "duration = 0.02"), "--resume")
         self.assertGreater(len(rows), first + 5)
         for last, row in zip(rows, rows[1:]):
             self.assertAlmostEqual(row["base.ax"], (row["base.vx"] - last["base.vx"]) / (row["time"] - last["time"]), delta=1e-9)
