@@ -94,19 +94,22 @@ void attach_point(const Model& model, const PolygonSet& polygons, const Load& lo
   faults.push_back(fault);
 }
 
+/// Level of a table, from left to right, at x.
+double level_at(const std::vector<Vec2>& table, double x) {
+  if (x <= table.front().x) return table.front().y;
+  std::size_t k = 1;
+  while (k + 1 < table.size() && table[k].x < x) ++k;
+  const Vec2 a = table[k - 1], b = table[k];
+  return a.y + std::min((x - a.x) / (b.x - a.x), 1.0) * (b.y - a.y);
+}
+
 /// The water table from left to right, local coordinates.
 struct Table {
   std::vector<Vec2> points;
 
   double low() const { return points.front().x; }
   double high() const { return points.back().x; }
-  double at(double x) const {
-    if (x <= low()) return points.front().y;
-    std::size_t k = 1;
-    while (k + 1 < points.size() && points[k].x < x) ++k;
-    const Vec2 a = points[k - 1], b = points[k];
-    return a.y + std::min((x - a.x) / (b.x - a.x), 1.0) * (b.y - a.y);
-  }
+  double at(double x) const { return level_at(points, x); }
 };
 
 /// The parts of edge v that each lie under one straight piece of the table, without those that are
@@ -177,6 +180,7 @@ void wet_pores(const Model& model, const BlockSet& b, const Table& table, double
 
 void attach_water(const Model& model, const Water& water, Index row, const BlockSet& b, double snap,
                   Loads& loads, Faults& faults) {
+  if (water.table.empty()) return;
   Table table;
   for (const Vec2 p : water.table) table.points.push_back(p - b.origin);
   const std::vector<std::array<Vec2, 2>> outlines = dry_outlines(model, water, b.origin);
@@ -292,6 +296,15 @@ Result<Loads> attach_loads(const Model& model, const PolygonSet& polygons, const
                    [](const WetZone& x, const WetZone& y) { return x.zone < y.zone; });
   sort_by_block(b, loads);
   return loads;
+}
+
+double level_of(const Water& water, Vec2 origin, double x) {
+  return (water.level ? *water.level : level_at(water.table, x + origin.x)) - origin.y;
+}
+
+void put_water(const BlockSet& b, std::vector<WetEdge> wet, Loads& loads) {
+  loads.wet = std::move(wet);
+  sort_by_block(b, loads);
 }
 
 void add_edge_loads(const BlockSet& b, const std::vector<EdgeLoad>& more, Loads& loads) {

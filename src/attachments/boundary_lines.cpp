@@ -31,20 +31,22 @@ Box model_box(const Model& model, const BlockSet& b) {
 
 }  // namespace
 
-std::vector<Line> boundary_lines(const Model& model, const BlockSet& b, const Boundary& boundary) {
+std::vector<Line> lines_along(const Model& model, const BlockSet& b,
+                              const std::vector<std::string>& sides,
+                              const std::vector<Vec2>& along) {
   std::vector<Line> lines;
-  if (!boundary.sides.empty()) {
+  if (!sides.empty()) {
     const Box box = model_box(model, b);
     const Vec2 ll = box.low, ur = box.high, lr{ur.x, ll.y}, ul{ll.x, ur.y};
-    for (const std::string& side : boundary.sides) {
+    for (const std::string& side : sides) {
       if (side == "left") lines.push_back({ll, ul});
       if (side == "right") lines.push_back({lr, ur});
       if (side == "bottom") lines.push_back({ll, lr});
       if (side == "top") lines.push_back({ul, ur});
     }
   }
-  for (std::size_t i = 0; i + 1 < boundary.along.size(); ++i) {
-    lines.push_back({boundary.along[i] - b.origin, boundary.along[i + 1] - b.origin});
+  for (std::size_t i = 0; i + 1 < along.size(); ++i) {
+    lines.push_back({along[i] - b.origin, along[i + 1] - b.origin});
   }
   return lines;
 }

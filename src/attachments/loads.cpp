@@ -55,7 +55,25 @@ double factor_of(const TimeHistory& history, const ActiveInterval& interval,
   return part * slow.at(time, gradual) * history.at(time - interval.since, 1.0);
 }
 
+void add_waters(LoadsNow& now, const Model& model, const Loads& loads, double time,
+                const GradualChange& gradual) {
+  for (std::size_t q = 0; q < model.waters.size(); ++q) {
+    const Water& water = model.waters[q];
+    const ActiveInterval& interval = loads.intervals.waters[q];
+    const double part = interval.part(time, gradual);
+    now.rise.push_back(part > 0.0 ? water.rise.at(time - interval.since, 0.0) : 0.0);
+    now.weight.push_back(part * loads.slow.waters[q].at(time, gradual) * water.unit_weight *
+                         model.thickness);
+  }
+}
+
 }  // namespace
+
+LoadsNow waters_at(const Model& model, const Loads& loads, double time) {
+  LoadsNow now;
+  add_waters(now, model, loads, time, {});
+  return now;
+}
 
 Vec2 gravity_at(Vec2 g, const SlowLoading& slow, double time, const GradualChange& gradual) {
   const auto both = [&](const SteppedValue& there, const SteppedValue& back) {
@@ -128,6 +146,12 @@ LoadsNow loads_at(const Model& model, const Loads& loads, double time) {
     if (shaking.apply != ShakingKind::inertia || part == 0.0) continue;
     now.frame += part * acceleration_at(shaking, time - interval.since);
   }
+  add_waters(now, model, loads, time, gradual);
+  if (loads.in_joints > 0.0) {
+    const double part = gradual.at ? gradual.part : 1.0;
+    now.rise.insert(now.rise.end(), {0.0, 0.0});
+    now.weight.insert(now.weight.end(), {part * loads.in_joints, (1.0 - part) * loads.in_joints});
+  }
   if (loads.blocks.empty()) return now;
   now.loads = &loads;
   const auto add_factors = [&](const auto& items, const std::vector<ActiveInterval>& intervals,
@@ -139,14 +163,6 @@ LoadsNow loads_at(const Model& model, const Loads& loads, double time) {
   add_factors(model.boundaries, loads.intervals.boundaries, loads.slow.boundaries);
   for (const SteppedValue& fraction : loads.remaining)
     now.factor.push_back(fraction.at(time, gradual));
-  for (std::size_t q = 0; q < model.waters.size(); ++q) {
-    const Water& water = model.waters[q];
-    const ActiveInterval& interval = loads.intervals.waters[q];
-    const double part = interval.part(time, gradual);
-    now.rise.push_back(part > 0.0 ? water.rise.at(time - interval.since, 0.0) : 0.0);
-    now.weight.push_back(part * loads.slow.waters[q].at(time, gradual) * water.unit_weight *
-                         model.thickness);
-  }
   return now;
 }
 

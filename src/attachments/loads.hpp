@@ -47,7 +47,9 @@ struct WetEdge {
   Id edge;
   double from, to;
   double level_from, level_to;  ///< y of the table above the ends of the part, m, local
-  Index water;                  ///< row of Model::waters
+  /// Row of Model::waters, or beyond them of the water that flows in joints: as it is, and as it
+  /// was before what changes gradually began to change.
+  Index water;
 };
 
 /// Gradual application, in a stage until equilibrium, of all that begins or ends to act at one
@@ -150,6 +152,7 @@ struct Loads {
   std::vector<EdgeLoad> edges;
   std::vector<WetEdge> wet;
   std::vector<WetZone> wet_zones;  ///< by zone
+  double in_joints = 0.0;          ///< N/m2: unit weight times thickness of what flows there
   std::vector<Id> blocks;          ///< blocks that carry any, ascending
   struct Range {
     Id point_begin, point_end, edge_begin, edge_end, wet_begin, wet_end;
@@ -167,8 +170,9 @@ struct Loads {
 struct LoadsNow {
   const Loads* loads = nullptr;  ///< null: there are none
   std::vector<double> factor;    ///< [rows of Model::loads, those of Model::boundaries, owners]
-  std::vector<double> rise;      ///< [rows of Model::waters] m
-  std::vector<double> weight;    ///< [rows of Model::waters] unit weight times thickness, N/m2
+  // [rows of Model::waters, and of a model with flow two of the water in joints: see WetEdge]
+  std::vector<double> rise;      ///< m
+  std::vector<double> weight;    ///< unit weight times thickness, N/m2
   const Bolts* bolts = nullptr;  ///< with their forces at this time; null: there are none
   Vec2 frame;                    ///< m/s2: acceleration of the frame; all blocks feel its opposite
   Vec2 to_come;  ///< m/s2: gravity of the model less the present one, which is applied gradually
@@ -180,6 +184,11 @@ struct LoadsNow {
 /// Finds the points and faces on which the loads, waters and boundaries of type stress act. A load
 /// without any is a fault.
 Result<Loads> attach_loads(const Model& model, const PolygonSet& polygons, const BlockSet& blocks);
+
+/// Level of a water at x (m, local coordinates, as the level).
+double level_of(const Water& water, Vec2 origin, double x);
+/// Replaces the water on edges.
+void put_water(const BlockSet& blocks, std::vector<WetEdge> wet, Loads& loads);
 
 /// Adds loads on faces to the lists.
 void add_edge_loads(const BlockSet& blocks, const std::vector<EdgeLoad>& more, Loads& loads);
@@ -209,6 +218,8 @@ double displacement_factor(const Model& model, const Loads& loads, std::size_t r
 Vec2 frame_velocity(const Model& model, const ActiveIntervals& intervals, double time);
 
 LoadsNow loads_at(const Model& model, const Loads& loads, double time);
+/// The waters of the model alone, as they are once all that changes gradually has changed.
+LoadsNow waters_at(const Model& model, const Loads& loads, double time);
 
 /// Adds the loads on a block, its vertices at `x`, `y`, to the forces on it, N. Water: pressure
 /// gamma (level + rise - y) on each edge where that is positive.

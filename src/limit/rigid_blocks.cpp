@@ -250,9 +250,11 @@ LoadsNow last_loads(const Simulation& sim) {
   return now;
 }
 
-/// Of a row of Model::waters, N/m2.
+/// Of a row of LoadsNow::weight, N/m2.
 double unit_weight(const Simulation& sim, std::size_t water) {
-  return sim.scene->model.waters[water].unit_weight * sim.scene->model.thickness;
+  const Model& model = sim.scene->model;
+  return water < model.waters.size() ? model.waters[water].unit_weight * model.thickness
+                                     : sim.attached.loads.in_joints;
 }
 
 }  // namespace

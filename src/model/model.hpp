@@ -120,7 +120,10 @@ struct JointLaw {
   std::optional<double> jrc, jcs;  ///< roughness (-), strength of the walls (Pa); barton-bandis
   std::optional<double> residual_angle;  ///< degrees; barton-bandis
   std::optional<double> kn;              ///< Pa/m; without it a penalty (contact_springs.hpp)
-  std::optional<double> ks;  ///< Pa/m; filled with 0.4 kn where kn is given and ks is not
+  std::optional<double> ks;        ///< Pa/m; filled with 0.4 kn where kn is given and ks is not
+  std::optional<double> aperture;  ///< m, as drawn, of [flow]; 0: watertight
+  std::optional<double> residual_aperture;  ///< m: the least; empty: a tenth of it
+  std::optional<double> largest_aperture;   ///< m, for its discharge; empty: ten times as much
   std::optional<Restitution> restitution;
   std::optional<LawDashpots> dashpots{};  ///< not a key: found from `restitution`
   Where where;
@@ -244,14 +247,24 @@ struct Load {
   Where where;
 };
 
-/// [[water]]: hydrostatic pressure in joints and on faces below a table.
+/// [[water]]: hydrostatic pressure in joints and on faces below a table; of a model with [flow] on
+/// faces outside its joints, and the head along lines of the rock.
 struct Water {
   std::string name;
-  std::vector<Vec2> table;           ///< from left to right
+  std::vector<Vec2> table;           ///< from left to right; either this or `level`
+  std::optional<double> level;       ///< m
+  std::vector<std::string> sides;    ///< where the rock has this head, or
+  std::vector<Vec2> along;           ///< the polyline along which it has
   std::vector<std::string> flooded;  ///< flooded openings
   double unit_weight = 9810.0;       ///< N/m3
   std::string history;               ///< path of a file of time, rise (m)
   TimeHistory rise;
+  Where where;
+};
+
+/// [flow]: water that flows through the joints.
+struct FlowInputs {
+  double viscosity = 1e-3;  ///< Pa s
   Where where;
 };
 
@@ -381,6 +394,7 @@ struct Model {
   std::vector<Boundary> boundaries;
   std::vector<Load> loads;
   std::vector<Water> waters;
+  std::optional<FlowInputs> flow;
   std::vector<Shaking> shakings;
   std::vector<Bolt> bolts;
   std::vector<BoltPattern> bolt_patterns;

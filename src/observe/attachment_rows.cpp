@@ -161,4 +161,17 @@ std::string linings_rows(const Simulation& sim) {
   return csv.text();
 }
 
+std::string flow_rows(const Simulation& sim) {
+  const std::vector<Water>& waters = sim.scene->model.waters;
+  const std::vector<double>& inflow = sim.attached.joint_water.inflow;
+  Csv csv;
+  for (std::size_t q = 0; q < inflow.size(); ++q) {
+    const std::string name = q == waters.size()       ? "open"
+                             : waters[q].name.empty() ? std::to_string(q)
+                                                      : waters[q].name;
+    csv.add(sim.motion.state.time).add(name).add(inflow[q]).end();
+  }
+  return csv.text();
+}
+
 }  // namespace edda

@@ -25,4 +25,7 @@ std::string bolts_rows(const Simulation& sim);
 /// Rows of linings.csv (ResultFile::linings), one per end of each piece.
 std::string linings_rows(const Simulation& sim);
 
+/// Rows of flow.csv (ResultFile::flow), one per water and one of the open faces.
+std::string flow_rows(const Simulation& sim);
+
 }  // namespace edda

@@ -66,6 +66,19 @@ std::string shaking_line(const Shaking& s, std::size_t row) {
       end.y);
 }
 
+/// What flows through the joints as they are, and where it comes from.
+std::string flow_line(const Simulation& sim) {
+  const JointWater& water = sim.attached.joint_water;
+  double comes = 0.0;
+  for (const double inflow : water.inflow) comes += std::max(inflow, 0.0);
+  std::string text = fmt::format("flow through {}: {:.4g} m2/s at the start",
+                                 counted(water.rows.size(), "joint"), comes);
+  for (std::size_t q = 0; q + 1 < water.inflow.size(); ++q)
+    text += fmt::format(", from {} {:.4g}", row_label("water", sim.scene->model.waters[q].name, q),
+                        water.inflow[q]);
+  return text;
+}
+
 std::string bolts_line(const Bolts& bolts) {
   std::size_t joints = 0;
   for (std::size_t k = 0; k < bolts.size(); ++k) joints += bolts.crossing[k];
@@ -115,6 +128,7 @@ std::vector<std::string> load_report(const Simulation& sim) {
                     counted(sim.scene->model.openings.size(), "opening"), f.x, f.y,
                     range_of(water.rise, "rising", " m")));
   }
+  if (sim.scene->model.flow) lines.push_back(flow_line(sim));
   for (std::size_t q = 0; q < sim.scene->model.shakings.size(); ++q) {
     lines.push_back(shaking_line(sim.scene->model.shakings[q], q));
   }

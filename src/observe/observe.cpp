@@ -91,6 +91,17 @@ void add_crack(ContactRecord& r, const Simulation& sim, std::size_t k) {
   }
 }
 
+void add_water(ContactRecord& r, const Simulation& sim, const FaceRow& row) {
+  const FlowRow* flow = row_of(sim.attached.joint_water, row.of.edge[row.k], row.of.facing[row.k]);
+  if (flow == nullptr) return;
+  r.aperture = flow->aperture;
+  r.discharge = flow->discharge;
+  r.water_pressure_a = flow->pressure_a;
+  r.water_pressure_b = flow->pressure_b;
+  r.head = r.position.y + 0.5 * (flow->pressure_a + flow->pressure_b) /
+                              sim.scene->model.waters.front().unit_weight;
+}
+
 ContactRecord face_record(const Simulation& sim, const FaceRow& row) {
   const FaceSet& f = row.of;
   const std::size_t k = row.k;
@@ -117,6 +128,7 @@ ContactRecord face_record(const Simulation& sim, const FaceRow& row) {
   r.ever_slipped = row.slipped;
   r.ever_opened = row.opened;
   add_crack(r, sim, k);
+  add_water(r, sim, row);
   if (!is_closed(row)) return r;
   r.state = f.bonded(k)   ? ContactState::bonded
             : slides(row) ? ContactState::slide
@@ -219,8 +231,10 @@ Picture picture_of(const Simulation& sim, const Instant& at) {
     if (at.state.alive[i]) p.blocks.push_back(block_record(sim, at.state, i));
   }
   for (std::size_t k = 0; k < sim.motion.contacts.size(); ++k) {
-    const bool there = is_closed_now(sim, k) || has_opened(sim, k);
-    if (!there && !sim.motion.contacts.is_broken(k)) continue;
+    const FaceSet& faces = sim.motion.contacts;
+    const bool there = is_closed_now(sim, k) || has_opened(sim, k) || faces.is_broken(k) ||
+                       row_of(sim.attached.joint_water, faces.edge[k], faces.facing[k]) != nullptr;
+    if (!there) continue;
     p.contacts.push_back(face_record(sim, face_row(sim, k)));
   }
   for (std::size_t k = 0; k < sim.point_contacts.size(); ++k) {

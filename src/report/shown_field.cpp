@@ -43,6 +43,10 @@ double degrees(const double* v) {
   return v[0] * 180.0 / std::numbers::pi;
 }
 
+double without_sign(const double* v) {
+  return std::abs(v[0]);
+}
+
 constexpr auto kinds = ScaleKind::kinds;
 constexpr auto numbers = ScaleKind::numbers;
 
@@ -87,6 +91,12 @@ constexpr std::array recipes{
            true},
     Recipe{"damage", "damage", "part of the strength of joints that cracks have taken", "", numbers,
            true, first, true},
+    Recipe{"water_pressure", "water_pressure", "water pressure in joints", "Pa", numbers, true,
+           first, true},
+    Recipe{"head", "head", "head of the water in joints", "m", numbers, true, first, true},
+    Recipe{"discharge", "discharge", "discharge of joints", "m2/s", numbers, true, without_sign,
+           true},
+    Recipe{"aperture", "aperture", "hydraulic aperture of joints", "m", numbers, true, first, true},
 };
 
 const Recipe* recipe_of(const std::string& name) {

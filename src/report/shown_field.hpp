@@ -29,8 +29,9 @@ struct ShownField {
 /// Field by name: id material displacement velocity rotation stress principal_stress, of which
 /// vectors may name a part (displacement.y, stress.xx, principal_stress.minor), plastic_strain,
 /// yields and strength_factor of zones; contacts:
-/// normal_force shear_force opening slip state normal_stress shear_stress damage. "none" or "" for
-/// plain blocks. A fault lists the names.
+/// normal_force shear_force opening slip state normal_stress shear_stress damage, and of those with
+/// water water_pressure head discharge aperture. "none" or "" for plain blocks. A fault lists the
+/// names.
 Result<ShownField> shown_field(const std::string& name, const Grid& blocks, const Grid* contacts);
 
 /// Whether the field is one of contacts.

@@ -78,6 +78,22 @@ constexpr std::array joints{
     C{"broken_by", "text",
       "What has spent most of the fracture energy of a joint that is broken: tension or shear; "
       "empty of others."},
+    C{"aperture", "m",
+      "Hydraulic aperture of a joint through which water flows ([flow]), uniform with the same "
+      "discharge; 0 of others."},
+    C{"discharge", "m2/s",
+      "Discharge of the joint per metre of thickness, positive from end a to end b."},
+    C{"water_pressure_a", "Pa", "Pressure of that water at end a."},
+    C{"water_pressure_b", "Pa", "Pressure of that water at end b."},
+};
+
+constexpr std::array flow{
+    C{"time", "s", "Time of the frame."},
+    C{"water", "text",
+      "Name of a [[water]], or its number where it has none; open: faces of blocks beside which "
+      "there is air."},
+    C{"inflow", "m2/s",
+      "What flows from it into the joints per metre of thickness; negative: out of them."},
 };
 
 constexpr std::array fos{
@@ -266,7 +282,7 @@ constexpr std::array cut{
       "trace.0; empty for blocks that are given as such."},
 };
 
-constexpr std::array<ResultTable, 22> tables{{
+constexpr std::array<ResultTable, 23> tables{{
     {"history.csv",
      "A row at the start, at each multiple of output.history_every and at the end of each stage; "
      "stages until equilibrium have more (output.settling).",
@@ -277,6 +293,9 @@ constexpr std::array<ResultTable, 22> tables{{
     {"linings.csv",
      "Two rows for each piece of each installed lining in each frame, of models with linings.",
      linings},
+    {"flow.csv",
+     "A row for each water, and one for the open faces, in each frame, of models with [flow].",
+     flow},
     {"stages.csv", "A row for each stage that has ended, of models with stages.", stages},
     {"curve.csv", "A row for each increment of a ramp, of models with stages that have one.",
      curve},

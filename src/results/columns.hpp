@@ -30,6 +30,7 @@ enum class ResultFile {
   reactions,
   bolts,
   linings,
+  flow,
   stages,
   curve,
   stage_joints,

@@ -253,6 +253,14 @@ GridSource contact_source(const Picture& picture) {
   f.number("y_a", [](const C& c) { return c.a.y; });
   f.number("x_b", [](const C& c) { return c.b.x; });
   f.number("y_b", [](const C& c) { return c.b.y; });
+  if (std::any_of(picture.contacts.begin(), picture.contacts.end(),
+                  [](const C& c) { return c.aperture > 0.0; })) {
+    f.number("aperture", [](const C& c) { return c.aperture; });
+    f.number("discharge", [](const C& c) { return c.discharge; });
+    f.number("water_pressure",
+             [](const C& c) { return 0.5 * (c.water_pressure_a + c.water_pressure_b); });
+    f.number("head", [](const C& c) { return c.head; });
+  }
   return source;
 }
 

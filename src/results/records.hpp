@@ -57,6 +57,11 @@ struct ContactRecord {
   double shear_stress = 0.0;     ///< Pa: the mean over the overlap, signed as shear_force
   double damage = 0.0;           ///< part of its strength that a joint with fracture energy lost
   CrackMode crack = CrackMode::unbroken;
+  // Of a joint through which water flows; 0: there is none.
+  double aperture = 0.0;                                  ///< m, hydraulic
+  double discharge = 0.0;                                 ///< m2/s, from end a to end b
+  double water_pressure_a = 0.0, water_pressure_b = 0.0;  ///< Pa, at its ends
+  double head = 0.0;                                      ///< m, the mean of both ends: y + p/gamma
 };
 
 /// Larger ones are written as this.

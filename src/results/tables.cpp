@@ -32,7 +32,8 @@ Trouble write_joints_csv(const std::string& path, std::span<const ContactRecord>
     csv.add(c.length).add(c.closed_length).add(c.a.x).add(c.a.y).add(c.b.x).add(c.b.y);
     csv.add(c.normal_stress).add(c.normal_stress_a).add(c.normal_stress_b);
     csv.add(c.shear_stress).add(c.table).add(c.damage);
-    csv.add(crack_names[static_cast<std::size_t>(c.crack)]).end();
+    csv.add(crack_names[static_cast<std::size_t>(c.crack)]);
+    csv.add(c.aperture).add(c.discharge).add(c.water_pressure_a).add(c.water_pressure_b).end();
   });
 }
 

@@ -259,7 +259,11 @@ constexpr std::array known_fields{KnownField{"id", 1, true},
                                   KnownField{"x_a", 1, false},
                                   KnownField{"y_a", 1, false},
                                   KnownField{"x_b", 1, false},
-                                  KnownField{"y_b", 1, false}};
+                                  KnownField{"y_b", 1, false},
+                                  KnownField{"aperture", 1, false},
+                                  KnownField{"discharge", 1, false},
+                                  KnownField{"water_pressure", 1, false},
+                                  KnownField{"head", 1, false}};
 
 bool fits(const Field& f, std::size_t count) {
   if (f.components == 0 || f.values.size() % f.components != 0) return false;

@@ -228,6 +228,7 @@ void Driver::list(Archive& a) {
   a("files.reactions_bytes", files.reactions_bytes);
   a("files.bolts_bytes", files.bolts_bytes);
   if (!sim_.scene->model.linings.empty()) a("files.linings_bytes", files.linings_bytes);
+  if (sim_.scene->model.flow) a("files.flow_bytes", files.flow_bytes);
   a("files.frame_times", files.frame_times);
   a("files.velocities", files.velocities);
   // For each file its name, a line break, and its hash.

@@ -68,18 +68,18 @@ Trouble Recorder::begin(const Simulation& sim, const Gauges& gauges) {
     if (auto t = linings_.open(path("linings.csv"))) return t;
     if (auto t = linings_.add(header(ResultFile::linings))) return t;
   }
+  if (sim.scene->model.flow) {
+    if (auto t = flow_.open(path("flow.csv"))) return t;
+    if (auto t = flow_.add(header(ResultFile::flow))) return t;
+  }
   frames_.emplace(folder_, sim.scene->blocks);
   return write_columns_csv(folder_, owners_);
 }
 
 RecorderMemory Recorder::memory() const {
-  return {history_.bytes(),
-          reactions_.bytes(),
-          bolts_.bytes(),
-          linings_.bytes(),
-          frames_ ? frames_->times() : std::vector<double>{},
-          inputs_,
-          velocities_};
+  return {history_.bytes(), reactions_.bytes(), bolts_.bytes(),
+          linings_.bytes(), flow_.bytes(),      frames_ ? frames_->times() : std::vector<double>{},
+          inputs_,          velocities_};
 }
 
 Trouble Recorder::sync() {
@@ -87,6 +87,7 @@ Trouble Recorder::sync() {
   if (auto t = reactions_.sync()) return t;
   if (auto t = bolts_.sync()) return t;
   if (auto t = linings_.sync()) return t;
+  if (auto t = flow_.sync()) return t;
   return frames_ ? frames_->write_series() : Trouble{};
 }
 
@@ -106,6 +107,9 @@ Trouble Recorder::resume(const Simulation& sim, const Gauges& gauges,
   }
   if (!sim.scene->model.linings.empty()) {
     if (auto t = linings_.reopen(path("linings.csv"), memory.linings_bytes)) return t;
+  }
+  if (sim.scene->model.flow) {
+    if (auto t = flow_.reopen(path("flow.csv"), memory.flow_bytes)) return t;
   }
   frames_.emplace(folder_, sim.scene->blocks);
   frames_->go_on_after(memory.frame_times);
@@ -191,6 +195,9 @@ Trouble Recorder::frame(const Simulation& sim, Picture picture) {
   if (!sim.scene->model.linings.empty()) {
     if (auto t = linings_.add(linings_rows(sim))) return t;
   }
+  if (sim.scene->model.flow) {
+    if (auto t = flow_.add(flow_rows(sim))) return t;
+  }
   return frames_ ? frames_->add(std::move(picture)) : Trouble{};
 }
 
@@ -198,7 +205,7 @@ Trouble Recorder::tables(const Picture& picture) {
   if (!writes()) return {};
   Trouble first = history_.close();
   const auto also = [&](const Trouble& t) { first = first ? first : t; };
-  for (RowFile* file : {&reactions_, &bolts_, &linings_}) also(file->close());
+  for (RowFile* file : {&reactions_, &bolts_, &linings_, &flow_}) also(file->close());
   if (frames_) also(frames_->write_series());
   if (auto t = write_blocks_csv(path("blocks.csv"), picture.blocks)) return t;
   if (auto t = write_joints_csv(path("joints.csv"), picture.contacts)) return t;

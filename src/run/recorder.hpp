@@ -17,7 +17,8 @@ namespace edda {
 
 /// Lengths of the files of a run at a checkpoint.
 struct RecorderMemory {
-  std::uint64_t history_bytes = 0, reactions_bytes = 0, bolts_bytes = 0, linings_bytes = 0;
+  std::uint64_t history_bytes = 0, reactions_bytes = 0, bolts_bytes = 0, linings_bytes = 0,
+                flow_bytes = 0;
   std::vector<double> frame_times;  ///< s
   std::vector<InputFile> inputs;
   std::vector<double> velocities;  ///< Recorder::velocities_
@@ -67,7 +68,7 @@ class Recorder {
   /// At the last row, or at the start of the stage: the time (s), then vx and vy (m/s) of each
   /// monitor in a frame at rest.
   std::vector<double> velocities_;
-  RowFile history_, reactions_, bolts_, linings_;
+  RowFile history_, reactions_, bolts_, linings_, flow_;
   std::optional<FrameSeries> frames_;
 };
 

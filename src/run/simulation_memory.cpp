@@ -12,6 +12,7 @@
 #include "forces/viscosity.hpp"
 #include "run/attachment_memory.hpp"
 #include "run/face_memory.hpp"
+#include "run/flow_memory.hpp"
 #include "run/implicit_memory.hpp"
 #include "step/tile_step.hpp"
 
@@ -255,6 +256,7 @@ void list_memory(Archive& a, Simulation& s, FaceStates& faces) {
   list_wall_forces(a, s);
   list_ground(a, s);
   list_bolts(a, s);
+  list_flow(a, s);
   a("displacement_cap", s.control.cap);
   a("strength_from", s.relaxation.strength_from);
   a("strength_to", s.relaxation.strength_to);

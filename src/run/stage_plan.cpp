@@ -149,6 +149,7 @@ std::optional<Fault> enter_stage(Simulation& sim, const StagePlan& given, bool f
     change_strength(sim, stage, stage.strength_factor);
   }
   if (stage.reset_displacements) reset_displacements(sim);
+  update_flow(sim);
   return {};
 }
 

@@ -10,12 +10,14 @@
 #include "attachments/free_field.hpp"
 #include "attachments/ground.hpp"
 #include "attachments/loads.hpp"
+#include "flow/joint_water.hpp"
 
 namespace edda {
 
 struct Attached {
   BoundarySprings springs;
   Loads loads;
+  JointWater joint_water;
   Dashpots dashpots;
   FreeField free_field;
   Bolts bolts;

@@ -2,6 +2,7 @@
 // velocities. Energy that they add or remove is accounted for as external work.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -14,6 +15,7 @@
 
 namespace edda {
 
+struct Attached;
 struct Simulation;
 
 /// Replaces the damping, and updates the step that it allows.
@@ -70,6 +72,13 @@ void change_velocities(Simulation& sim, const BodyVectors& velocity);
 /// The ground and all free blocks lose the velocity v (m/s), as if the last step had been made
 /// without it: the model is seen from a frame that moves with v. None of its forces changes.
 void lose_velocity(Simulation& sim, Vec2 v);
+
+/// Water as drawn acts outside the joints alone, of a model with [flow].
+void begin_flow(const Model& model, const BlockSet& blocks, Attached& attached);
+/// Water in joints follows their motion and its own levels at so many steps.
+inline constexpr std::uint64_t steps_between_flows = 50;
+/// Solves the flow of water through the joints as they are now, of a model with [flow].
+void update_flow(Simulation& sim);
 
 /// Loads the outer faces with the initial stress, on boundaries too; at creation.
 void load_boundaries_with_initial_stress(Simulation& sim);

@@ -117,6 +117,7 @@ std::vector<Fault> attach(const Scene& scene, Attached& attached) {
   }
   attached.dashpots.set_acting(acting);
   attached.ground = find_ground(model, blocks);
+  if (model.flow) begin_flow(model, blocks, attached);
   return {};
 }
 
@@ -174,13 +175,14 @@ Result<Simulation> Simulation::create(Model given, BlockOrder order) {
   motion.laws = first_laws(model);
   motion.masses = given_masses(blocks);
   set_viscosity(sim);
-  if (model.initial_stress) load_boundaries_with_initial_stress(sim);
   place_blocks(sim);
   Result<Bolts> bolts = attach_bolts(model, blocks, motion.state, motion.pose.x, motion.pose.y);
   if (!bolts.ok()) return bolts.faults();
   sim.attached.bolts = std::move(bolts.value());
   sim.control.limit = std::numeric_limits<double>::infinity();
   search(sim, next_reach(sim));
+  update_flow(sim);
+  if (model.initial_stress) load_boundaries_with_initial_stress(sim);
   sim.stepper->begin_contacts(sim);
   plan_slivers(sim);
   set_limit(sim);

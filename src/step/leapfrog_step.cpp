@@ -7,6 +7,7 @@
 #include "base/parallel.hpp"
 #include "contacts/evaluate_face.hpp"
 #include "forces/dashpot_forces.hpp"
+#include "step/changes.hpp"
 #include "step/contact_search.hpp"
 #include "step/force_jumps.hpp"
 #include "step/instant.hpp"
@@ -206,6 +207,7 @@ std::optional<Failure> leap(Simulation& sim, const LeapContacts& contacts) {
   update_relaxation(sim, at_work);
   clock.lap(seconds.integrate);
   search_if_due(sim);
+  if (sim.motion.state.steps % steps_between_flows == 0) update_flow(sim);
   adjust_step(sim);
   clock.lap(seconds.search);
   return inspect(sim);

@@ -349,7 +349,10 @@ void begin_gradually(Simulation& sim, const std::vector<double>& strength_factor
               });
   }
   constexpr double periods = 2.0;  // of what does not come in increments
+  changes = changes || sim.scene->model.flow.has_value();
   if (changes) loads.gradual = {state.time, 0.0, false, least, more ? 0.0 : periods};
+  if (changes)
+    keep_water(sim.attached.joint_water, loads, static_cast<Index>(sim.scene->model.waters.size()));
   if (changes && !more && has_bonds(sim.motion.contacts)) hold_joints(sim);
   relaxation.estimate.least = 0.5 * relaxation.estimate.frequency;
   relaxation.strength_from = laws.divided_by;

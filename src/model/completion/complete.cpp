@@ -385,6 +385,7 @@ void complete(const Value& root, Reading& reading) {
   complete_linings(root, reading);
   complete_geometry(root, reading);
   complete_loads(root, reading);
+  complete_flow(root, reading);
   complete_stages(root, reading);
   check_first_linings(root, reading);
   check_solver(root, reading);

@@ -32,6 +32,7 @@ Index glued_law(Reading& reading);
 /// As complete(), for [[load]] and [[water]]: keys that exclude each other, histories read from
 /// their files, openings that are named.
 void complete_loads(const Value& root, Reading& reading);
+void complete_flow(const Value& root, Reading& reading);
 
 /// As complete(), for [[boundary]]: the keys that each type needs, and those that it does not have.
 void complete_boundaries(const Value& root, Reading& reading);

@@ -109,6 +109,9 @@ constexpr std::array joint_keys{
     Key{"residual_angle", at<&JointLaw::residual_angle>, number(D::angle, friction), otherwise("required of barton-bandis"), "Residual friction angle of barton-bandis."},
     Key{"kn", at<&JointLaw::kn>, number(D::joint_stiffness, above(0)), otherwise("from the blocks, or contact.normal_stiffness at each end of a face"), "Normal stiffness of the joint: its pressure is kn times its closure."},
     Key{"ks", at<&JointLaw::ks>, number(D::joint_stiffness, above(0)), otherwise("0.4 kn"), "Shear stiffness of the joint."},
+    Key{"aperture", at<&JointLaw::aperture>, number(D::length, from(0)), otherwise("required with [flow], unless type is \"glued\""), "Hydraulic aperture of the joint as drawn, from which it opens and closes; 0: it is watertight."},
+    Key{"residual_aperture", at<&JointLaw::residual_aperture>, number(D::length, above(0)), otherwise("a tenth of aperture"), "Hydraulic aperture that remains however much the joint closes."},
+    Key{"largest_aperture", at<&JointLaw::largest_aperture>, number(D::length, above(0)), otherwise("10 aperture"), "Hydraulic aperture beyond which an opening joint conducts no more water."},
     Key{"restitution", at<&JointLaw::restitution>, number_or("housner", D::plain, from_to(0, 1)), otherwise("what remains with the damping of blocks and contacts"), "Method edda: the part of its velocity with which a block leaves after an impact, flat or on a corner, of any shape and mass (of 0.1 to 0.8 within 3 %, or 0.015; 0 leaves up to 0.09; with a kn as stiff as the rock right for squares alone, and a warning says so), or \"housner\": a rocking block loses at each impact the energy of Housner's assumption. Dashpots in these contacts produce this, and unless kn is given their springs are soft: a thirtieth of the smallest young (below 0.2 a hundredth, housner a fifteenth)."},
 };
 
@@ -165,9 +168,16 @@ constexpr std::array load_keys{
     Key{"history", at<&Load::history>, file, otherwise("constant from the start"), "CSV file of time and factor, linear between its rows."},
 };
 
+constexpr std::array flow_keys{
+    Key{"viscosity", at<&FlowInputs::viscosity>, number(D::viscosity, above(0)), initial, "Dynamic viscosity of the water."},
+};
+
 constexpr std::array water_keys{
     Key{"name", at<&Water::name>, naming, otherwise("none"), "What --set, stages and messages call the water."},
-    Key{"table", at<&Water::table>, polyline, required, "Its level from left to right; joints and faces below carry its pressure; joints and faces beyond its ends are dry."},
+    Key{"table", at<&Water::table>, polyline, otherwise("none; either this or level"), "Its level from left to right; joints and faces below carry its pressure; joints and faces beyond its ends are dry. With [flow] only faces outside the joints: ground under open water, walls of flooded openings."},
+    Key{"level", at<&Water::level>, number(D::length), otherwise("none; either this or table"), "With [flow]: its level where it acts along a line in the rock alone, such as that of a drain."},
+    Key{"sides", at<&Water::sides>, words_of(side_names), otherwise("none"), "With [flow]: sides of the box round the model along which the rock has its head; there water flows in and out. Sides with a boundary are impermeable otherwise."},
+    Key{"along", at<&Water::along>, polyline, otherwise("none"), "With [flow]: a line that has its head where it meets joints, such as a row of drain holes."},
     Key{"flooded", at<&Water::flooded>, name_list, initial, "Names of the openings that are full of water, too; the others are dry."},
     Key{"unit_weight", at<&Water::unit_weight>, number(D::unit_weight, above(0)), initial, "Weight of water per volume."},
     Key{"history", at<&Water::history>, file, otherwise("constant from the start"), "CSV file of time and rise of the table (m), linear between its rows."},
@@ -391,6 +401,7 @@ constexpr std::array all_sections{
     section<&Model::boundaries>("boundary", Shape::list, boundary_keys, "Support, motion, load or wave absorption along a line."),
     section<&Model::loads>("load", Shape::list, load_keys, "A force at a point, or a traction or pressure along a line."),
     section<&Model::waters>("water", Shape::list, water_keys, "Water in joints and on faces below a table."),
+    section<&Model::flow>("flow", Shape::table, flow_keys, "Water that flows through the joints."),
     section<&Model::shakings>("shaking", Shape::list, shaking_keys, "Ground motion (seismic loading)."),
     section<&Model::bolts>("bolt", Shape::list, bolt_keys, "A rock bolt."),
     section<&Model::bolt_patterns>("bolt_pattern", Shape::list, bolt_pattern_keys, "Bolts round an opening."),

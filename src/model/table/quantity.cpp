@@ -179,6 +179,7 @@ const DimensionInfo& info(Dimension dimension) {
       DimensionInfo{"an energy per area", "J/m2", "40.0 or \"40 J/m2\"", 0, 1, -2, 0, false},
       DimensionInfo{"a second moment of area", "m4", "3.9e-5 or \"3900 cm4\"", 4, 0, 0, 0, false},
       DimensionInfo{"a moment", "N m", "120e3 or \"120 kN m\"", 2, 1, -2, 0, false},
+      DimensionInfo{"a viscosity", "Pa s", "1e-3 or \"1 mPa s\"", -1, 1, -1, 0, false},
   };
   return table[static_cast<std::size_t>(dimension)];
 }

@@ -31,6 +31,7 @@ enum class Dimension {
   surface_energy,   ///< J/m2
   second_moment,    ///< of an area, m4
   moment,           ///< N m
+  viscosity,        ///< Pa s
 };
 
 struct DimensionInfo {

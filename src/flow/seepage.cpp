@@ -1,0 +1,263 @@
+#include "flow/seepage.hpp"
+
+#include <Eigen/SparseLU>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+namespace edda {
+namespace {
+
+using Kind = NodeCondition::Kind;
+
+/// What is unknown of a node: p where it is wet, s where air enters. Discharges grow with the
+/// unknown of the node they leave and fall with that of the node they enter, so that sweeps over
+/// the nodes one by one come nearer from anywhere (an M-function: Rheinboldt 1970); Newton's method
+/// makes an end of it.
+class SeepageSolver {
+ public:
+  SeepageSolver(const FlowNetwork& net, const std::vector<NodeCondition>& given, double unit_weight,
+                const FlowStorage* storage, std::vector<NodeWater>& water)
+      : net_(net), given_(given), gamma_(unit_weight), storage_(storage), water_(water) {
+    const std::size_t count = net.nodes.size();
+    for (std::size_t n = 0; n < count; ++n) {
+      if (given_[n].kind == Kind::pressure) {
+        water_[n] = {given_[n].pressure, 1.0};
+      } else if (given_[n].kind == Kind::air) {
+        water_[n] = {0.0, 0.0};
+      } else if (water_[n].pressure > 0.0) {
+        water_[n].filled = 1.0;
+      }
+    }
+    list_pipes();
+    for (Id n = 0; n < count; ++n) {
+      if (given_[n].kind == Kind::inside && begin_[n + 1] > begin_[n]) inside_.push_back(n);
+    }
+    std::stable_sort(inside_.begin(), inside_.end(),
+                     [&](Id a, Id b) { return net.nodes[a].place.y > net.nodes[b].place.y; });
+  }
+
+  bool solve() {
+    constexpr int rounds = 10, newton_steps = 25;
+    int sweeps = 20;
+    constexpr double small = 2e-9;
+    if (storage_ == nullptr) begin_steady();
+    for (int round = 0; round < rounds; ++round, sweeps *= 2) {
+      for (int k = 0; k < newton_steps; ++k) {
+        if (largest_imbalance() < small) return true;
+        make_newton_step();
+      }
+      for (int k = 0; k < sweeps; ++k) {
+        for (const Id n : inside_) balance(n);
+        for (auto n = inside_.rbegin(); n != inside_.rend(); ++n) balance(*n);
+      }
+    }
+    return largest_imbalance() < small;
+  }
+
+ private:
+  struct Neighbour {
+    Id node;
+    double conductance;
+  };
+
+  /// No potential is above the highest one given, in steady flow. Where nothing is known all nodes
+  /// have it.
+  void begin_steady() {
+    highest_ = -std::numeric_limits<double>::infinity();
+    for (std::size_t n = 0; n < given_.size(); ++n) {
+      if (given_[n].kind == Kind::pressure) highest_ = std::max(highest_, potential(n));
+    }
+    for (const Id n : inside_) {
+      if (water_[n].pressure > 0.0 || water_[n].filled > 0.0) return;
+    }
+    for (const Id n : inside_) {
+      if (const double p = most_of(n); p > 0.0) water_[n] = {p, 1.0};
+    }
+  }
+  double most_of(Id n) const { return highest_ - gamma_ * net_.nodes[n].place.y; }
+
+  /// What leaves a node, less what comes to it, and its derivatives by p and by s, m2/s.
+  struct Balance {
+    double net = 0.0, gross = 0.0, by_pressure = 0.0, by_filled = 0.0;
+  };
+
+  double potential(std::size_t n) const {
+    return water_[n].pressure + gamma_ * net_.nodes[n].place.y;
+  }
+
+  void list_pipes() {
+    begin_.assign(net_.nodes.size() + 1, 0);
+    for (const FlowPipe& p : net_.pipes) {
+      ++begin_[p.from + 1];
+      ++begin_[p.to + 1];
+    }
+    std::partial_sum(begin_.begin(), begin_.end(), begin_.begin());
+    of_node_.resize(begin_.back());
+    std::vector<std::size_t> next(begin_.begin(), begin_.end() - 1);
+    for (const FlowPipe& p : net_.pipes) {
+      of_node_[next[p.from]++] = {p.to, p.conductance};
+      of_node_[next[p.to]++] = {p.from, p.conductance};
+    }
+  }
+
+  Balance balance_of(Id n) const {
+    const NodeWater w = water_[n];
+    Balance b;
+    for (std::size_t q = begin_[n]; q < begin_[n + 1]; ++q) {
+      const auto [m, conductance] = of_node_[q];
+      const double drop = potential(n) - potential(m);
+      const double conducts = drop >= 0.0 ? w.filled : water_[m].filled;
+      b.net += conductance * conducts * drop;
+      b.gross += conductance * conducts * std::abs(drop);
+      b.by_pressure += conductance * conducts;
+      if (drop > 0.0) b.by_filled += conductance * drop;
+    }
+    if (storage_ == nullptr) return b;
+    const double volume = storage_->volume[n] / storage_->step;
+    b.net += volume * (w.filled + w.pressure / storage_->bulk_modulus) -
+             storage_->content[n] / storage_->step;
+    b.gross += volume;
+    b.by_pressure += volume / storage_->bulk_modulus;
+    b.by_filled += volume;
+    return b;
+  }
+
+  double largest_imbalance() const {
+    double largest = 0.0;
+    for (const Id n : inside_) {
+      const Balance b = balance_of(n);
+      const double least = 1e-6 * gamma_ * net_.nodes[n].conductance;  // 1 um of head
+      largest = std::max(largest, std::abs(b.net) / std::max(b.gross, least));
+    }
+    return largest;
+  }
+
+  /// Whether the unknown of the node is its pressure.
+  bool is_wet(Id n, double net) const {
+    return water_[n].pressure > 0.0 || (water_[n].filled >= 1.0 && net <= 0.0);
+  }
+
+  /// The node at balance with its neighbours as they are: its discharge grows piece by piece.
+  void balance(Id n) {
+    constexpr int most = 30;
+    for (int k = 0; k < most; ++k) {
+      const Balance b = balance_of(n);
+      const bool wet = is_wet(n, b.net);
+      const double slope = wet ? b.by_pressure : b.by_filled;
+      if (!(slope > 0.0)) {
+        if (!wet && b.net < 0.0) water_[n].filled = 1.0;  // water that cannot leave
+        if (!wet && b.net >= 0.0) water_[n].filled = 0.0;
+        return;
+      }
+      const double more = -b.net / slope;
+      if (!move(n, wet, more)) return;
+    }
+  }
+
+  /// Changes the unknown of a node, up to where the other begins. Returns whether it is there now.
+  bool move(Id n, bool wet, double more) {
+    NodeWater& w = water_[n];
+    if (wet) {
+      const double before = w.pressure;
+      w.pressure = std::max(0.0, std::min(w.pressure + more, most_of(n)));
+      return w.pressure != before &&
+             (w.pressure == 0.0 || std::abs(more) > 1e-13 * (gamma_ + w.pressure));
+    }
+    const double before = w.filled;
+    w.filled = std::clamp(w.filled + more, 0.0, 1.0);
+    return w.filled == 1.0 && before != 1.0;
+  }
+
+  void make_newton_step() {
+    std::vector<Id> row(net_.nodes.size(), no_id);
+    for (std::size_t k = 0; k < inside_.size(); ++k) row[inside_[k]] = static_cast<Id>(k);
+    const auto rows = static_cast<Eigen::Index>(inside_.size());
+    std::vector<Eigen::Triplet<double>> entries;
+    std::vector<std::uint8_t> wet(inside_.size());
+    Eigen::VectorXd right(rows);
+    const auto add = [&](std::size_t k, std::size_t column, double value) {
+      entries.emplace_back(static_cast<int>(k), static_cast<int>(column), value);
+    };
+    for (std::size_t k = 0; k < inside_.size(); ++k) {
+      const Balance b = balance_of(inside_[k]);
+      wet[k] = is_wet(inside_[k], b.net) ? 1 : 0;
+      right[static_cast<Eigen::Index>(k)] = -b.net;
+      // What is cut off stays as it is.
+      constexpr double cut_off = 1e-14;
+      const double conductance = net_.nodes[inside_[k]].conductance;
+      add(k, k,
+          wet[k] != 0 ? b.by_pressure + cut_off * conductance
+                      : b.by_filled + cut_off * gamma_ * conductance);
+    }
+    for (std::size_t k = 0; k < inside_.size(); ++k) {
+      const Id n = inside_[k];
+      for (std::size_t q = begin_[n]; q < begin_[n + 1]; ++q) {
+        const auto [m, conductance] = of_node_[q];
+        if (row[m] == no_id) continue;
+        const double drop = potential(n) - potential(m);
+        const bool leaves = drop >= 0.0;
+        if (wet[row[m]] != 0) {
+          add(k, row[m], -conductance * (leaves ? water_[n].filled : water_[m].filled));
+        } else if (!leaves) {
+          add(k, row[m], conductance * drop);
+        }
+      }
+    }
+    if (rows == 0) return;
+    Eigen::SparseMatrix<double> matrix(rows, rows);
+    matrix.setFromTriplets(entries.begin(), entries.end());
+    Eigen::SparseLU<Eigen::SparseMatrix<double>> factor(matrix);
+    if (factor.info() != Eigen::Success) return;
+    const Eigen::VectorXd more = factor.solve(right);
+    for (std::size_t k = 0; k < inside_.size(); ++k)
+      move(inside_[k], wet[k] != 0, more[static_cast<Eigen::Index>(k)]);
+  }
+
+  const FlowNetwork& net_;
+  const std::vector<NodeCondition>& given_;
+  double gamma_;
+  const FlowStorage* storage_;
+  std::vector<NodeWater>& water_;
+  std::vector<std::size_t> begin_;
+  std::vector<Neighbour> of_node_;
+  std::vector<Id> inside_;                                    // from the highest to the lowest
+  double highest_ = std::numeric_limits<double>::infinity();  // potential, Pa
+};
+
+/// The node of higher potential of a pipe, and the other one.
+struct Ends {
+  std::size_t high, low;
+  double drop;  // of the potential, Pa
+};
+Ends ends_of(const FlowNetwork& net, const FlowPipe& pipe, double gamma,
+             const std::vector<NodeWater>& water) {
+  const auto potential = [&](Id n) { return water[n].pressure + gamma * net.nodes[n].place.y; };
+  const double drop = potential(pipe.from) - potential(pipe.to);
+  return drop >= 0.0 ? Ends{pipe.from, pipe.to, drop} : Ends{pipe.to, pipe.from, -drop};
+}
+
+}  // namespace
+
+bool solve_seepage(const FlowNetwork& network, const std::vector<NodeCondition>& given,
+                   double unit_weight, const FlowStorage* storage, std::vector<NodeWater>& water) {
+  return SeepageSolver(network, given, unit_weight, storage, water).solve();
+}
+
+double discharge_of(const FlowNetwork& network, const FlowPipe& pipe, double unit_weight,
+                    const std::vector<NodeWater>& water) {
+  const Ends ends = ends_of(network, pipe, unit_weight, water);
+  const double q = water[ends.high].filled * pipe.conductance * ends.drop;
+  return ends.high == pipe.from ? q : -q;
+}
+
+PipeLevels levels_of(const FlowNetwork& network, const FlowPipe& pipe, double unit_weight,
+                     const std::vector<NodeWater>& water) {
+  const Ends ends = ends_of(network, pipe, unit_weight, water);
+  const double low = network.nodes[ends.low].place.y + water[ends.low].pressure / unit_weight;
+  const double high = low + water[ends.high].filled * ends.drop / unit_weight;
+  return ends.high == pipe.from ? PipeLevels{high, low} : PipeLevels{low, high};
+}
+
+}  // namespace edda

@@ -1,0 +1,60 @@
+// Flow through the network of joints, with a free surface (theory, section 13.9).
+//
+// Of a node: p >= 0 its pressure, s the part of it that water fills, phi = p + gamma y. Either p >
+// 0 and s = 1 (wet), or p = 0 and 0 <= s <= 1 (air enters). A pipe from i to j, phi_i >= phi_j, has
+//   q = s_i C (phi_i - phi_j)
+// so that water falls from a node that air enters, and none rises to it: below it stands. At each
+// node that is inside the rock the discharges, and the growth of what it stores, sum to zero.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "flow/network.hpp"
+
+namespace edda {
+
+/// What is given at a node.
+struct NodeCondition {
+  enum class Kind : std::uint8_t {
+    inside,    ///< nothing: water neither comes nor goes
+    pressure,  ///< its pressure
+    air        ///< atmospheric pressure: water may leave, none comes in
+  };
+  Kind kind = Kind::inside;
+  double pressure = 0.0;  ///< Pa
+  Index water = none;     ///< which gives the pressure
+};
+
+struct NodeWater {
+  double pressure = 0.0;  ///< p, Pa
+  double filled = 0.0;    ///< s
+};
+
+/// A step in time, and what the nodes stored before it; null: steady flow.
+struct FlowStorage {
+  double step;                  ///< s
+  double bulk_modulus;          ///< Pa, of water
+  std::vector<double> volume;   ///< [nodes] m2, of the voids, at its end
+  std::vector<double> content;  ///< [nodes] m2, of water without pressure, at its beginning
+};
+
+/// Solves for the water of all nodes. [nodes] water: on entry a guess, as that of a state before.
+/// unit_weight: gamma, N/m3. Returns whether the set of wet nodes has been found; else the last one
+/// tried is taken.
+bool solve_seepage(const FlowNetwork& network, const std::vector<NodeCondition>& given,
+                   double unit_weight, const FlowStorage* storage, std::vector<NodeWater>& water);
+
+/// Discharge of a pipe from its node `from` to its node `to`, m2/s.
+double discharge_of(const FlowNetwork& network, const FlowPipe& pipe, double unit_weight,
+                    const std::vector<NodeWater>& water);
+
+/// Level of the water at the two ends of a pipe, as it presses on its walls: p = gamma (level - y)
+/// where that is positive; m, local coordinates.
+struct PipeLevels {
+  double from, to;
+};
+PipeLevels levels_of(const FlowNetwork& network, const FlowPipe& pipe, double unit_weight,
+                     const std::vector<NodeWater>& water);
+
+}  // namespace edda

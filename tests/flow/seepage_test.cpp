@@ -1,0 +1,193 @@
+// Water in a network of pipes: networks by hand, free surfaces, and the conditions that any
+// solution holds, in random networks.
+#include "flow/seepage.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+namespace edda {
+namespace {
+
+using Kind = NodeCondition::Kind;
+constexpr double gamma = 9810.0;
+
+FlowNetwork network_of(const std::vector<Vec2>& places,
+                       const std::vector<std::tuple<Id, Id, double>>& pipes) {
+  FlowNetwork net;
+  for (const Vec2 p : places) net.nodes.push_back({p});
+  for (const auto& [from, to, conductance] : pipes) {
+    const double length = norm(places[from] - places[to]);
+    net.pipes.push_back({0, from, to, 0.0, 1.0, length, 1e-3, 1e-3, conductance});
+    net.nodes[from].conductance += conductance;
+    net.nodes[to].conductance += conductance;
+  }
+  return net;
+}
+
+std::vector<NodeWater> solved(const FlowNetwork& net, const std::vector<NodeCondition>& given) {
+  std::vector<NodeWater> water(net.nodes.size());
+  EXPECT_TRUE(solve_seepage(net, given, gamma, nullptr, water));
+  return water;
+}
+
+TEST(Seepage, ConductanceOfPlates) {
+  // h^3/(12 mu l), and of a tapered one by quadrature.
+  EXPECT_DOUBLE_EQ(conductance_of(1e-3, 1e-3, 2.0, 1e-3), 1e-9 / (12.0 * 1e-3 * 2.0));
+  double resistance = 0.0;
+  constexpr int parts = 100000;
+  for (int k = 0; k < parts; ++k) {
+    const double h = 1e-3 + (k + 0.5) / parts * (4e-3 - 1e-3);
+    resistance += 12.0 * 1e-3 / (h * h * h) * 2.0 / parts;
+  }
+  EXPECT_NEAR(conductance_of(1e-3, 4e-3, 2.0, 1e-3) * resistance, 1.0, 1e-8);
+}
+
+TEST(Seepage, WheatstoneBridgeByHand) {
+  // All at one level. Conductances 1, 2 | 3, 4 and the bridge 5 between the middles:
+  // 8 p1 ... from Kirchhoff's law by hand: (1+2+5) p1 - 5 p2 = p0, (3+4+5) p2 - 5 p1 = 3 p0.
+  const FlowNetwork net =
+      network_of({{0, 0}, {1, 0}, {2, 0}, {3, 0}},
+                 {{0, 1, 1e-9}, {1, 3, 2e-9}, {0, 2, 3e-9}, {2, 3, 4e-9}, {1, 2, 5e-9}});
+  const double p0 = 1e5;
+  const std::vector<NodeWater> w =
+      solved(net, {{Kind::pressure, p0, 0}, {}, {}, {Kind::air, 0.0, none}});
+  const double p1 = (12.0 * p0 + 15.0 * p0) / (8.0 * 12.0 - 25.0);
+  const double p2 = (8.0 * 3.0 * p0 + 5.0 * p0) / (8.0 * 12.0 - 25.0);
+  EXPECT_NEAR(w[1].pressure / p1, 1.0, 1e-11);
+  EXPECT_NEAR(w[2].pressure / p2, 1.0, 1e-11);
+  const double in =
+      discharge_of(net, net.pipes[0], gamma, w) + discharge_of(net, net.pipes[2], gamma, w);
+  EXPECT_NEAR(in, 1e-9 * (p0 - p1) + 3e-9 * (p0 - p2), 1e-17);
+}
+
+TEST(Seepage, StillWaterIsHydrostatic) {
+  // A loop that reaches above the level of the only water.
+  const FlowNetwork net = network_of({{0, 0}, {0, 4}, {3, 8}, {3, 2}},
+                                     {{0, 1, 1e-9}, {1, 2, 2e-9}, {2, 3, 1e-9}, {3, 0, 4e-9}});
+  const std::vector<NodeWater> w = solved(net, {{Kind::pressure, 5.0 * gamma, 0}, {}, {}, {}});
+  EXPECT_NEAR(w[1].pressure, gamma, 1e-8);
+  EXPECT_NEAR(w[3].pressure, 3.0 * gamma, 1e-8);
+  EXPECT_EQ(w[2].pressure, 0.0);
+  EXPECT_EQ(w[2].filled, 0.0);
+  for (const FlowPipe& pipe : net.pipes) {
+    EXPECT_NEAR(discharge_of(net, pipe, gamma, w), 0.0, 1e-16);
+    // In pipes that reach above it, too.
+    EXPECT_NEAR(levels_of(net, pipe, gamma, w).from, 5.0, 1e-11);
+    EXPECT_NEAR(levels_of(net, pipe, gamma, w).to, 5.0, 1e-11);
+  }
+}
+
+TEST(Seepage, WaterFallsFromACrossing) {
+  // A level pipe feeds a crossing, from which a wide pipe falls to the air: the crossing is at
+  // atmospheric pressure, and the water that comes fills a part of the wide pipe.
+  const FlowNetwork net = network_of({{0, 10}, {5, 10}, {5, 0}}, {{0, 1, 1e-9}, {1, 2, 8e-9}});
+  const double p0 = 2.0 * gamma;
+  const std::vector<NodeWater> w =
+      solved(net, {{Kind::pressure, p0, 0}, {}, {Kind::air, 0.0, none}});
+  EXPECT_EQ(w[1].pressure, 0.0);
+  EXPECT_NEAR(w[1].filled, 1e-9 * p0 / (8e-9 * 10.0 * gamma), 1e-11);
+  EXPECT_NEAR(discharge_of(net, net.pipes[1], gamma, w), 1e-9 * p0, 1e-16);
+}
+
+TEST(Seepage, NoAirFeedsWater) {
+  // An outcrop above, one below: nothing flows from the upper to the lower.
+  const FlowNetwork net = network_of({{0, 10}, {0, 5}, {0, 0}}, {{0, 1, 1e-9}, {1, 2, 1e-9}});
+  const std::vector<NodeWater> w =
+      solved(net, {{Kind::air, 0.0, none}, {}, {Kind::air, 0.0, none}});
+  EXPECT_EQ(w[1].pressure, 0.0);
+  EXPECT_EQ(w[1].filled, 0.0);
+}
+
+/// A grid of crossings with random apertures, lifted at random.
+FlowNetwork random_network(std::mt19937& draw, Id wide, Id high) {
+  std::uniform_real_distribution<double> unit(0.0, 1.0);
+  std::vector<Vec2> places;
+  for (Id j = 0; j < high; ++j) {
+    for (Id i = 0; i < wide; ++i) places.push_back({i + 0.6 * unit(draw), j + 0.6 * unit(draw)});
+  }
+  std::vector<std::tuple<Id, Id, double>> pipes;
+  const auto add = [&](Id a, Id b) {
+    if (unit(draw) < 0.85) pipes.emplace_back(a, b, 1e-9 * std::pow(10.0, 3.0 * unit(draw)));
+  };
+  for (Id j = 0; j < high; ++j) {
+    for (Id i = 0; i < wide; ++i) {
+      if (i + 1 < wide) add(j * wide + i, j * wide + i + 1);
+      if (j + 1 < high) add(j * wide + i, (j + 1) * wide + i);
+    }
+  }
+  return network_of(places, pipes);
+}
+
+TEST(Seepage, RandomNetworksHoldTheirConditions) {
+  std::mt19937 draw(7);
+  for (int trial = 0; trial < 500; ++trial) {
+    constexpr Id wide = 12, high = 9;
+    const FlowNetwork net = random_network(draw, wide, high);
+    std::vector<NodeCondition> given(net.nodes.size());
+    for (Id j = 0; j < high; ++j) {
+      const Id left = j * wide, right = left + wide - 1;
+      const double p = gamma * (6.5 - net.nodes[left].place.y);
+      given[left] = p > 0.0 ? NodeCondition{Kind::pressure, p, 0} : NodeCondition{};
+      const double q = gamma * (2.0 - net.nodes[right].place.y);
+      given[right] =
+          q > 0.0 ? NodeCondition{Kind::pressure, q, 1} : NodeCondition{Kind::air, 0.0, none};
+    }
+    const std::vector<NodeWater> w = solved(net, given);
+    std::vector<double> gain(net.nodes.size(), 0.0), size(net.nodes.size(), 1e-16);
+    for (const FlowPipe& pipe : net.pipes) {
+      const double q = discharge_of(net, pipe, gamma, w);
+      gain[pipe.from] -= q;
+      gain[pipe.to] += q;
+      size[pipe.from] += std::abs(q);
+      size[pipe.to] += std::abs(q);
+    }
+    for (std::size_t n = 0; n < w.size(); ++n) {
+      if (given[n].kind == Kind::inside) {
+        EXPECT_LE(std::abs(gain[n]), 1e-8 * size[n] + 1e-14) << trial << ": node " << n;
+        EXPECT_GE(w[n].pressure, 0.0);
+        EXPECT_GE(w[n].filled, 0.0);
+        EXPECT_LE(w[n].filled, 1.0);
+        EXPECT_TRUE(w[n].pressure == 0.0 || w[n].filled == 1.0);
+      } else if (given[n].kind == Kind::air) {
+        EXPECT_GE(gain[n], -1e-15) << "no water comes out of the air";
+      }
+      // No pressure anywhere above that of the higher water.
+      EXPECT_LE(w[n].pressure,
+                gamma * (6.5 - net.nodes[n].place.y) * (w[n].pressure > 0 ? 1 : 0) + 1e-6);
+    }
+  }
+}
+
+TEST(Seepage, AStepInTimeKeepsTheVolume) {
+  // What a joint stores, and its diffusion: a column of ten pipes that fills from below.
+  std::vector<Vec2> places;
+  std::vector<std::tuple<Id, Id, double>> pipes;
+  for (Id k = 0; k < 11; ++k) {
+    places.push_back({0.0, 0.5 * k});
+    if (k > 0) pipes.emplace_back(k - 1, k, 1e-9);
+  }
+  const FlowNetwork net = network_of(places, pipes);
+  std::vector<NodeCondition> given(11);
+  given[0] = {Kind::pressure, 4.0 * gamma, 0};
+  std::vector<NodeWater> w(11);
+  FlowStorage storage{50.0, 2e9, std::vector<double>(11, 1e-3), std::vector<double>(11, 0.0)};
+  double came = 0.0;
+  for (int step = 0; step < 400; ++step) {
+    ASSERT_TRUE(solve_seepage(net, given, gamma, &storage, w));
+    came += storage.step * discharge_of(net, net.pipes[0], gamma, w);
+    double stored = 0.0;
+    for (std::size_t n = 1; n < 11; ++n) {
+      storage.content[n] = storage.volume[n] * (w[n].filled + w[n].pressure / storage.bulk_modulus);
+      stored += storage.content[n];
+    }
+    ASSERT_NEAR(stored, came, 1e-9 * came + 1e-15);
+  }
+  // In the end it stands at the level of the water below.
+  for (std::size_t n = 1; n < 11; ++n)
+    EXPECT_NEAR(w[n].pressure, std::max(0.0, gamma * (4.0 - places[n].y)), 1e-3 * gamma);
+}
+
+}  // namespace
+}  // namespace edda
