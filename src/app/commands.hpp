@@ -20,6 +20,7 @@ void add_keyblocks(CLI::App& app, int& code);
 void add_fit(CLI::App& app, int& code);
 void add_study(CLI::App& app, int& code);
 void add_plot(CLI::App& app, int& code);
+void add_spectra(CLI::App& app, int& code);
 void add_view(CLI::App& app, int& code);
 void add_example(CLI::App& app, int& code);
 void add_keys(CLI::App& app, int& code);

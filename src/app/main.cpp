@@ -41,6 +41,7 @@ int run_command(int argc, char** argv) {
   edda::add_study(app, code);
   edda::add_fit(app, code);
   edda::add_plot(app, code);
+  edda::add_spectra(app, code);
   edda::add_view(app, code);
   edda::add_example(app, code);
   edda::add_keys(app, code);

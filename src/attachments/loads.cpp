@@ -124,6 +124,16 @@ double displacement_factor(const Model& model, const Loads& loads, std::size_t r
          model.boundaries[row].factor.at(time - interval.since, 1.0);
 }
 
+Vec2 frame_velocity(const Model& model, const ActiveIntervals& intervals, double time) {
+  Vec2 v;
+  for (std::size_t q = 0; q < model.shakings.size(); ++q) {
+    if (model.shakings[q].apply != ShakingKind::inertia) continue;
+    const ActiveInterval& interval = intervals.shakings[q];
+    v += velocity_at(model.shakings[q], std::min(time, interval.until) - interval.since);
+  }
+  return v;
+}
+
 LoadsNow loads_at(const Model& model, const Loads& loads, double time) {
   LoadsNow now;
   const GradualChange& gradual = loads.gradual;

@@ -213,6 +213,10 @@ void remove_wall_forces(const Model& model, const BlockSet& blocks, Index owner,
 /// velocity.
 double displacement_factor(const Model& model, const Loads& loads, std::size_t row, double time);
 
+/// Velocity of the frame that ground motions of kind "inertia" shake, m/s: the integral of their
+/// accelerations, each since it was activated.
+Vec2 frame_velocity(const Model& model, const ActiveIntervals& intervals, double time);
+
 LoadsNow loads_at(const Model& model, const Loads& loads, double time);
 /// The waters of the model alone, as they are once all that changes gradually has changed.
 LoadsNow waters_at(const Model& model, const Loads& loads, double time);

@@ -129,7 +129,7 @@ struct Stage {
 
 struct Output {
   double every = 0.0;          ///< s; default: duration / 20
-  double history_every = 0.0;  ///< s; default: duration / 200
+  double history_every = 0.0;  ///< s; default: duration / 200; "record": the interval of a record
   bool settling = true;  ///< more rows and frames in stages until equilibrium; default: where the
                          ///< two above are not given
   double checkpoint_every = 5.0;  ///< minutes of wall time

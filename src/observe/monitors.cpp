@@ -99,6 +99,11 @@ Vec2 displacement_of(const BlockSet& b, const State& s, const MonitorPoint& m) {
   return at_point(vector_of(b, s.position, m.block) - vector_of(b, s.reference, m.block), m);
 }
 
+Vec2 absolute_velocity(const Simulation& sim, const Instant& at, const MonitorPoint& m) {
+  return at_point(sim.scene->blocks, at.state.velocity, m) +
+         frame_velocity(sim.scene->model, sim.attached.loads.intervals, at.state.time);
+}
+
 MonitorReading read_monitor(const Simulation& sim, const Instant& at, const MonitorPoint& m) {
   MonitorReading r;
   const BlockSet& b = sim.scene->blocks;

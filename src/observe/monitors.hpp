@@ -41,6 +41,9 @@ double convergence(const BlockSet& blocks, const State& state, const Convergence
 /// Displacement of the point, m.
 Vec2 displacement_of(const BlockSet& blocks, const State& state, const MonitorPoint& point);
 
+/// Velocity of the point in a frame at rest, m/s: with that of the ground under apply = "inertia".
+Vec2 absolute_velocity(const Simulation& sim, const Instant& at, const MonitorPoint& point);
+
 /// Displacement and velocity of the point, and the stress of its block.
 struct MonitorReading {
   Vec2 displacement, velocity;

@@ -15,14 +15,16 @@ constexpr std::array<std::string_view, 10> energies{
 struct Kind {
   std::string_view ending, label, unit;
 };
-constexpr std::array<Kind, 8> kinds{{{".ux", "displacement", "m"},
-                                     {".uy", "displacement", "m"},
-                                     {".vx", "velocity", "m/s"},
-                                     {".vy", "velocity", "m/s"},
-                                     {".sxx", "stress", "Pa"},
-                                     {".syy", "stress", "Pa"},
-                                     {".sxy", "stress", "Pa"},
-                                     {".convergence", "convergence", "m"}}};
+constexpr std::array<Kind, 10> kinds{{{".ux", "displacement", "m"},
+                                      {".uy", "displacement", "m"},
+                                      {".vx", "velocity", "m/s"},
+                                      {".vy", "velocity", "m/s"},
+                                      {".ax", "acceleration", "m/s2"},
+                                      {".ay", "acceleration", "m/s2"},
+                                      {".sxx", "stress", "Pa"},
+                                      {".syy", "stress", "Pa"},
+                                      {".sxy", "stress", "Pa"},
+                                      {".convergence", "convergence", "m"}}};
 
 bool is_energy(const std::string& name) {
   return std::find(energies.begin(), energies.end(), name) != energies.end();

@@ -122,10 +122,28 @@ std::vector<double> spread(const std::vector<double>& wanted, double apart, doub
   return placed;
 }
 
+/// 1, 2 and 5 times powers of ten at their logarithms within [low, high]; powers alone where that
+/// is much more than `count`: these labels are short.
+std::vector<Tick> ticks_of_ratios(double low, double high, double count) {
+  std::vector<Tick> all, powers;
+  for (double p = std::floor(low); p <= high; p += 1.0) {
+    for (const double digit : {1.0, 2.0, 5.0}) {
+      const double at = p + std::log10(digit);
+      if (at < low - 1e-9 || at > high + 1e-9) continue;
+      all.push_back({at, fmt::format("{:g}", digit * std::pow(10.0, p))});
+      if (digit == 1.0) powers.push_back(all.back());
+    }
+  }
+  return static_cast<double>(all.size()) > 1.5 * count ? powers : all;
+}
+
 class HistoryPage {
  public:
   HistoryPage(const HistoryPicture& picture, const std::string& path)
-      : picture_(picture), f_(picture.paper.font) {
+      : picture_(picture), across_(picture.time), f_(picture.paper.font) {
+    if (picture.ratios) {
+      for (double& x : across_) x = std::log10(x);
+    }
     for (const HistoryPanel& panel : picture.panels) {
       axes_.push_back(axis_of(panel, picture.time, picture.span, picture.range));
       panel_heights_.push_back(
@@ -170,9 +188,9 @@ class HistoryPage {
            (1.2 + 1.5 * static_cast<double>(title_.size()) + (picture_.stages.empty() ? 0.0 : 1.4));
     height_ = top_ + 3.6 * f_ - gap();
     for (const double h : panel_heights_) height_ += h + gap();
-    if (!picture_.time.empty()) {
-      first_ = picture_.time.front();
-      last_ = picture_.time.back();
+    if (!across_.empty()) {
+      first_ = across_.front();
+      last_ = across_.back();
     }
     if (picture_.span) {
       first_ = picture_.span->x;
@@ -180,11 +198,10 @@ class HistoryPage {
     }
     if (!(last_ > first_)) last_ = first_ + 1.0;
     // Rows that are shown, and one more on each side, so that the lines continue to the edge.
-    const auto& time = picture_.time;
-    const auto from = std::lower_bound(time.begin(), time.end(), first_);
-    const auto to = std::upper_bound(from, time.end(), last_);
-    row_begin_ = from == time.begin() ? from : from - 1;
-    row_end_ = to == time.end() ? to : to + 1;
+    const auto from = std::lower_bound(across_.cbegin(), across_.cend(), first_);
+    const auto to = std::upper_bound(from, across_.cend(), last_);
+    row_begin_ = from == across_.cbegin() ? from : from - 1;
+    row_end_ = to == across_.cend() ? to : to + 1;
   }
 
   double tick_count(std::size_t k) const { return panel_heights_[k] / (2.2 * f_); }
@@ -275,7 +292,7 @@ class HistoryPage {
                    std::size_t round) {
     cairo_t* cr = canvas_->cr();
     const std::vector<double> time(row_begin_, row_end_);
-    const auto first = row_begin_ - picture_.time.begin();
+    const auto first = row_begin_ - across_.cbegin();
     const std::vector<double> shown(values.begin() + first,
                                     values.begin() + first + std::ssize(time));
     double end = frame.high.y;
@@ -307,7 +324,8 @@ class HistoryPage {
   void draw_time_axis(const Box& frame, bool labels) {
     const double count = frame.width() / (6.0 * f_);
     canvas_->colour(ink::line);
-    for (const Tick& t : ticks(first_, last_, count)) {
+    for (const Tick& t :
+         picture_.ratios ? ticks_of_ratios(first_, last_, count) : ticks(first_, last_, count)) {
       const double x = x_of(t.value);
       canvas_->line({x, frame.high.y}, {x, frame.high.y + 0.35 * f_}, rule);
       if (!labels) continue;
@@ -321,13 +339,14 @@ class HistoryPage {
   }
 
   const HistoryPicture& picture_;
+  std::vector<double> across_;  ///< the picture's times, or their logarithms
   double f_;
   std::vector<Axis> axes_;
   std::vector<double> panel_heights_;  ///< pt
   std::vector<std::string> title_;
   double left_ = 0.0, right_ = 0.0, top_ = 0.0, height_ = 0.0;  ///< pt
-  double first_ = 0.0, last_ = 1.0;                             ///< s
-  std::vector<double>::const_iterator row_begin_, row_end_;     ///< of the picture's times
+  double first_ = 0.0, last_ = 1.0;                             ///< of across_
+  std::vector<double>::const_iterator row_begin_, row_end_;     ///< of across_
   std::optional<Canvas> canvas_;
 };
 

@@ -21,6 +21,7 @@ struct HistoryPicture {
   std::string title;
   std::vector<double> time;         ///< s, of the rows; or what `across` says
   std::string across = "time (s)";  ///< the axis of all panels
+  bool ratios = false;  ///< whether that axis is logarithmic, which needs values above 0
   std::vector<HistoryPanel> panels;
   std::vector<StageSpan> stages;  ///< may be empty
   std::optional<Vec2> span{};     ///< s, first and last that are shown; empty: all

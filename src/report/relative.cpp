@@ -50,7 +50,7 @@ bool move_with(Snapshot& shot, Vec2 start) {
 
 bool move_with(Table& history, const std::string& monitor) {
   bool found = false;
-  for (const std::string ending : {".ux", ".uy", ".vx", ".vy"}) {
+  for (const std::string ending : {".ux", ".uy", ".vx", ".vy", ".ax", ".ay"}) {
     const Column* const of = history.column(monitor + ending);
     if (of == nullptr) continue;
     found = true;

@@ -13,8 +13,8 @@ namespace edda {
 /// where no block contains the point.
 bool move_with(Snapshot& shot, Vec2 start);
 
-/// Subtracts the displacement and velocity of a monitor from those of all monitors of a history.
-/// False where the history has no such monitor.
+/// Subtracts the displacement, velocity and acceleration of a monitor from those of all monitors of
+/// a history. False where the history has no such monitor.
 bool move_with(Table& history, const std::string& monitor);
 
 }  // namespace edda

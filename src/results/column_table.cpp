@@ -211,6 +211,56 @@ constexpr std::array limit_joints{
       "trace.0; empty for blocks that are given as such."},
 };
 
+constexpr C of_direction{"direction", "text", "x: to the right; y: upwards."};
+constexpr C of_event{"stage", "1",
+                     "Number of the stage of the ground motion, from 1; 0 without stages."};
+constexpr C period_column{"period", "s", "Natural period of the oscillator."};
+
+constexpr std::array motions{
+    C{"monitor", "text", "Name of the monitor; second/first: of one relative to another."},
+    of_direction,
+    of_event,
+    C{"start", "s", "Time at which the stage, or the run, began."},
+    C{"end", "s", "Time at which it ended."},
+    C{"peak_acceleration", "m/s2",
+      "Largest magnitude of the acceleration, the mean from row to row."},
+    C{"peak_velocity", "m/s", "Largest magnitude of the velocity."},
+    C{"peak_displacement", "m", "Largest magnitude of the displacement since the start."},
+    C{"permanent_displacement", "m", "Displacement from the start to the end."},
+    C{"arias", "m/s", "Arias intensity, pi/(2 g) times the integral of the squared acceleration."},
+    C{"arias_duration", "s", "Time in which it grows from 5 to 95 % of its final value."},
+};
+
+constexpr std::array spectra{
+    C{"monitor", "text", "Name of the monitor."},
+    of_direction,
+    of_event,
+    period_column,
+    C{"pseudo_acceleration", "m/s2",
+      "Largest displacement of the oscillator relative to the monitor, times (2 pi/period)^2."},
+    C{"relative_velocity", "m/s", "Largest velocity of the oscillator relative to the monitor."},
+    C{"relative_displacement", "m",
+      "Largest displacement of the oscillator relative to the monitor."},
+};
+
+constexpr std::array amplification{
+    of_direction,
+    of_event,
+    period_column,
+    C{"amplification", "1",
+      "Pseudo-acceleration at the second monitor over that at the first; empty where the first "
+      "does not move."},
+};
+
+constexpr std::array relative{
+    of_event,
+    time_column,
+    C{"ux", "m",
+      "Displacement to the right of the second monitor less that of the first, since the start of "
+      "the stage."},
+    C{"uy", "m", "The same upwards."},
+};
+
 constexpr std::array columns{
     C{"file", "text", "Name of a file of this folder."},
     C{"column", "text", "Name of one of its columns, as in its header."},
@@ -232,7 +282,7 @@ constexpr std::array cut{
       "trace.0; empty for blocks that are given as such."},
 };
 
-constexpr std::array<ResultTable, 19> tables{{
+constexpr std::array<ResultTable, 23> tables{{
     {"history.csv",
      "A row at the start, at each multiple of output.history_every and at the end of each stage; "
      "stages until equilibrium have more (output.settling).",
@@ -275,6 +325,18 @@ constexpr std::array<ResultTable, 19> tables{{
      study},
     {"key_block_map.csv", "A row for each place of [map] of a study where any sample has rock.",
      map},
+    {"motions.csv",
+     "A row for each monitor, direction and stage with a ground motion (edda spectra).", motions},
+    {"spectra.csv",
+     "Response spectra (edda spectra): a row for each monitor, direction, stage with a ground "
+     "motion and period.",
+     spectra},
+    {"amplification.csv", "A row for each direction, stage and period (edda spectra --between).",
+     amplification},
+    {"relative.csv",
+     "The motion of one monitor relative to another (edda spectra --between): a row for each row "
+     "of history.csv in the stages with a ground motion.",
+     relative},
     {"columns.csv", "A row for each column of each table in the folder.", columns},
     {"F.csv", "A row for each corner of each block, written by edda cut -o F.csv.", cut,
      TableIn::file_of_user},

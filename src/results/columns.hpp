@@ -43,6 +43,10 @@ enum class ResultFile {
   key_blocks,
   study,
   map,
+  motions,
+  spectra,
+  amplification,
+  relative,
   columns,
   cut,
 };

@@ -57,6 +57,12 @@ constexpr std::array history{
       ColumnOf::monitor},
     C{"NAME.vx", "m/s", "Velocity of a monitor to the right.", ColumnOf::monitor},
     C{"NAME.vy", "m/s", "Velocity of a monitor upwards.", ColumnOf::monitor},
+    C{"NAME.ax", "m/s2",
+      "Acceleration of a monitor to the right in a frame at rest, with that of the ground under "
+      "apply = inertia: the mean since the row before.",
+      ColumnOf::monitor},
+    C{"NAME.ay", "m/s2", "The same upwards, without gravity: 0 at rest, -g in free fall.",
+      ColumnOf::monitor},
     C{"NAME.sxx", "Pa", "Stress xx of the block that holds the monitor, positive in tension.",
       ColumnOf::monitor},
     C{"NAME.syy", "Pa", "Stress yy of the block that holds the monitor, positive in tension.",

@@ -41,7 +41,7 @@ Fault cannot_write(const std::string& path, int error) {
 namespace {
 
 /// Those that are no tables.
-constexpr std::array<std::string_view, 18> other_files{"summary.json",
+constexpr std::array<std::string_view, 22> other_files{"summary.json",
                                                        "blocks.pvd",
                                                        "contacts.pvd",
                                                        "model.toml",
@@ -53,6 +53,10 @@ constexpr std::array<std::string_view, 18> other_files{"summary.json",
                                                        "thrust.svg",
                                                        "keyblocks.png",
                                                        "keyblocks.svg",
+                                                       "spectra.png",
+                                                       "spectra.svg",
+                                                       "relative.png",
+                                                       "relative.svg",
                                                        "curve.png",
                                                        "curve.svg",
                                                        "mechanism_other_end.png",

@@ -230,6 +230,7 @@ void Driver::list(Archive& a) {
   if (!sim_.scene->model.linings.empty()) a("files.linings_bytes", files.linings_bytes);
   if (sim_.scene->model.flow) a("files.flow_bytes", files.flow_bytes);
   a("files.frame_times", files.frame_times);
+  a("files.velocities", files.velocities);
   // For each file its name, a line break, and its hash.
   std::string inputs;
   for (const InputFile& f : files.inputs) inputs += f.file + '\n' + f.sha256 + '\n';

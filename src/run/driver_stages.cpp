@@ -204,6 +204,7 @@ bool Driver::begin_next_stage() {
   begin_stage(stage_ + 1);
   event_ = times_.next();
   fit_step_to(sim_, event_.time);
+  recorder_.begin_stage(sim_, look(), run_.gauges);
   return !over_;
 }
 

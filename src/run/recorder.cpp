@@ -21,6 +21,16 @@ ColumnOwners owners_of(const Model& model, const Gauges& gauges) {
           .measurements = names_in(gauges.measurements)};
 }
 
+/// Recorder::velocities_ at an instant.
+std::vector<double> velocities_of(const Simulation& sim, const Instant& at, const Gauges& gauges) {
+  std::vector<double> velocities{at.state.time};
+  for (const MonitorPoint& m : gauges.monitors) {
+    const Vec2 v = absolute_velocity(sim, at, m);
+    velocities.insert(velocities.end(), {v.x, v.y});
+  }
+  return velocities;
+}
+
 /// The files that the model was read from; none for a model built in memory.
 std::vector<InputFile> inputs_of(const Model& model) {
   std::vector<InputFile> inputs;
@@ -69,7 +79,7 @@ Trouble Recorder::begin(const Simulation& sim, const Gauges& gauges) {
 RecorderMemory Recorder::memory() const {
   return {history_.bytes(), reactions_.bytes(), bolts_.bytes(),
           linings_.bytes(), flow_.bytes(),      frames_ ? frames_->times() : std::vector<double>{},
-          inputs_};
+          inputs_,          velocities_};
 }
 
 Trouble Recorder::sync() {
@@ -87,6 +97,7 @@ Trouble Recorder::resume(const Simulation& sim, const Gauges& gauges,
   owners_ = owners_of(sim.scene->model, gauges);
   if (auto t = lock_.take(folder_)) return t;
   inputs_ = memory.inputs;
+  velocities_ = memory.velocities;
   if (auto t = history_.reopen(path("history.csv"), memory.history_bytes)) return t;
   if (!sim.scene->model.boundaries.empty()) {
     if (auto t = reactions_.reopen(path("reactions.csv"), memory.reactions_bytes)) return t;
@@ -117,15 +128,27 @@ Trouble Recorder::write_model_file(const Model& model) {
   return write_file(file, text);
 }
 
+void Recorder::begin_stage(const Simulation& sim, const Instant& at, const Gauges& gauges) {
+  velocities_ = velocities_of(sim, at, gauges);
+}
+
 Trouble Recorder::row(const Simulation& sim, const Instant& at, const Gauges& gauges,
                       const EnergyBalance& l, double unbalanced) {
   if (!writes()) return {};
   if (auto t = frames_ ? frames_->collect() : Trouble{}) return t;
   Csv csv;
   csv.add(sim.motion.state.time);
-  for (const MonitorPoint& m : gauges.monitors) {
-    const MonitorReading r = read_monitor(sim, at, m);
+  const std::vector<double> before = std::exchange(velocities_, velocities_of(sim, at, gauges));
+  // The mean since the row before: what swings between rows cannot alias into it as into values at
+  // their times. 0 in the first row.
+  const auto mean = [&](std::size_t k) {
+    const double between = before.empty() ? 0.0 : velocities_[0] - before[0];
+    return between > 0.0 ? (velocities_[k] - before[k]) / between : 0.0;
+  };
+  for (std::size_t q = 0; q < gauges.monitors.size(); ++q) {
+    const MonitorReading r = read_monitor(sim, at, gauges.monitors[q]);
     csv.add(r.displacement.x).add(r.displacement.y).add(r.velocity.x).add(r.velocity.y);
+    csv.add(mean(2 * q + 1)).add(mean(2 * q + 2));
     csv.add(r.stress.xx).add(r.stress.yy).add(r.stress.xy);
   }
   for (const ConvergenceLine& line : gauges.convergences)

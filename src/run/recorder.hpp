@@ -21,6 +21,7 @@ struct RecorderMemory {
                 flow_bytes = 0;
   std::vector<double> frame_times;  ///< s
   std::vector<InputFile> inputs;
+  std::vector<double> velocities;  ///< Recorder::velocities_
 };
 
 class Recorder {
@@ -39,6 +40,9 @@ class Recorder {
   Trouble sync();
   Trouble row(const Simulation& sim, const Instant& at, const Gauges& gauges,
               const EnergyBalance& energy, double unbalanced);
+  /// Where a stage begins, which may change velocities at once: the accelerations of the next row
+  /// are means from here on.
+  void begin_stage(const Simulation& sim, const Instant& at, const Gauges& gauges);
   /// Waits until the last frame is written, so that one picture at a time is in memory.
   Trouble finish_frame() { return frames_ ? frames_->finish() : Trouble{}; }
   Trouble frame(const Simulation& sim, Picture picture);
@@ -61,6 +65,9 @@ class Recorder {
   std::vector<InputFile> inputs_;  ///< as they were when they were read
   ColumnOwners owners_;
   FolderLock lock_;
+  /// At the last row, or at the start of the stage: the time (s), then vx and vy (m/s) of each
+  /// monitor in a frame at rest.
+  std::vector<double> velocities_;
   RowFile history_, reactions_, bolts_, linings_, flow_;
   std::optional<FrameSeries> frames_;
 };

@@ -42,9 +42,9 @@ class Cli(RampProgram):
             self.assertEqual(set(check), {"name", "value", "limit", "pass"})
         rows = read_rows(self.dir / "m/history.csv")
         self.assertEqual([r["time"] for r in rows], ["0"] + [f"0.00{k}" for k in range(1, 10)] + ["0.01"])
-        self.assertEqual(list(rows[0])[1:8], ["M." + n for n in "ux uy vx vy sxx syy sxy".split()])
+        self.assertEqual(list(rows[0])[1:10], ["M." + n for n in "ux uy vx vy ax ay sxx syy sxy".split()])
         self.assertEqual(
-            list(rows[0])[8:],
+            list(rows[0])[10:],
             "kinetic strain contact gravity friction damping fracture external step_change drift unbalanced transfer "
             "cracks_tension cracks_shear".split())
         blocks = read_cells(self.dir / "m/blocks.csv")

@@ -82,7 +82,7 @@ vary = "load:push"
 bracket = [5, 9]
 tolerance = 0.1
 """
-OF_MONITOR = ("ux", "uy", "vx", "vy", "sxx", "syy", "sxy")
+OF_MONITOR = ("ux", "uy", "vx", "vy", "ax", "ay", "sxx", "syy", "sxy")
 
 
 def table(path):
@@ -117,7 +117,7 @@ class Columns(Program):
         columns = self.check_folder(self.dir / "r", *tables)
         for name in ("crown", "side, left"):
             self.assertEqual([columns["history.csv", f"{name}.{of}"][0] for of in OF_MONITOR],
-                             ["m", "m", "m/s", "m/s", "Pa", "Pa", "Pa"])
+                             ["m", "m", "m/s", "m/s", "m/s2", "m/s2", "Pa", "Pa", "Pa"])
         self.assertEqual([columns["history.csv", f"M.mean_{of}"][0] for of in ("sxx", "syy", "szz", "sxy", "exx", "eyy", "exy")],
                          ["Pa"] * 4 + ["1"] * 3)
         self.assertEqual(columns["history.csv", "H1.convergence"], columns["stages.csv", "H1.convergence"])

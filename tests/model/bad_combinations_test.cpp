@@ -91,6 +91,8 @@ TEST(BadModel, KeysTogether) {
       broken("steps", "duration = 0.1", "duration = 0.1\ntime_step = 1e-14", 40, "solver.time_step",
              "would take 1.0e+13 steps"),
       broken("frames", "every = 0.01", "every = 1e-7", 41, "output.every", "more than 1e+05"),
+      broken("rows of a record", "every = 0.01", "history_every = 'record'", 41,
+             "output.history_every", "no [[shaking]] has one"),
       broken("rows", "every = 0.01", "history_every = 1e-9", 41, "output.history_every",
              "more than 1e+07"),
       broken("coarse snap", "[domain]", "[domain]\nsnap = 1", 16, "domain.snap", "too coarse"),

@@ -118,6 +118,11 @@ TEST(ReadModel, RowsResolveWhatHappens) {
   EXPECT_DOUBLE_EQ(output(rest).every, 0.5);
   // Ten times as many frames as without the short stage, not ten thousand.
   EXPECT_DOUBLE_EQ(output(rest + "[[stage]]\nduration = 0.01\n").every, 0.1 * 10.01 / 20.0);
+  const std::string record =
+      "[[shaking]]\nacceleration = '" EDDA_SOURCE_DIR "/tests/verification/pulse.csv'\n";
+  const std::string rows = "[solver]\nduration = 10\n[output]\nhistory_every = 'record'\n";
+  EXPECT_DOUBLE_EQ(output(rows + sine + record).history_every, 0.1) << "that of pulse.csv";
+  EXPECT_FALSE(output(rows + record).settling);
   // A record of 0.01 s, and one so long that rows would fill the disk.
   EXPECT_DOUBLE_EQ(output("[solver]\nduration = 10000\n" + sine).history_every, 0.5);
 }

@@ -71,6 +71,21 @@ TEST(HistoryPanels, UnknownNamesAreAFaultThatListsTheKnown) {
   }
 }
 
+/// Equal ratios of the axis are equal ways on the page.
+TEST(HistoryPlot, ALogarithmicAxisHasEqualRatiosAtEqualWays) {
+  const Table table{{{"time", {0.1, 1.0, 10.0}}, {"P.ax", {0.0, 40.0, 20.0}}}};
+  HistoryPicture picture = picture_of(table, {"P.ax"});
+  picture.ratios = true;
+  const std::string svg = drawn(picture);
+  const std::vector<Vec2> line = first_line(svg);
+  ASSERT_EQ(line.size(), 3u);
+  EXPECT_NEAR(line[1].x - line[0].x, line[2].x - line[1].x, 0.02);
+  EXPECT_NEAR(text_of(svg, "0.1")->x, line[0].x, 0.02);
+  EXPECT_NEAR(text_of(svg, "1")->x, line[1].x, 0.02);
+  EXPECT_NEAR(text_of(svg, "5")->x, line[1].x + std::log10(5.0) * (line[2].x - line[1].x), 0.02);
+  EXPECT_TRUE(text_of(svg, "acceleration (m/s2)"));
+}
+
 TEST(HistoryPlot, TheLineGoesThroughItsValues) {
   const Table table = small_history();
   const std::string svg = drawn(picture_of(table, {"P.ux"}));

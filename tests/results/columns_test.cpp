@@ -30,9 +30,9 @@ std::string first_line(const std::string& path) {
 }
 
 TEST(Columns, HaveAUnitAndAMeaning) {
-  const std::set<std::string_view> units{"text", "1",   "s",         "m",        "m2",
-                                         "rad",  "m/s", "N/m",       "Pa",       "rad/s",
-                                         "N",    "J",   "as varied", "as asked", "N m"};
+  const std::set<std::string_view> units{"text", "1",         "s",        "m",     "m2",   "rad",
+                                         "m/s",  "N/m",       "Pa",       "rad/s", "m/s2", "N",
+                                         "J",    "as varied", "as asked", "N m"};
   std::set<std::string_view> files;
   for (const ResultTable& table : result_tables()) {
     EXPECT_TRUE(files.insert(table.file).second) << table.file;
@@ -69,11 +69,13 @@ TEST(Columns, OfStressesAndNormalForcesTellTheirSign) {
 
 /// The names are a promise: scripts of users read them.
 TEST(Columns, KeepTheirNames) {
-  EXPECT_EQ(header_of(ResultFile::history),
-            "time,crown.ux,crown.uy,crown.vx,crown.vy,crown.sxx,crown.syy,crown.sxy,"
-            "\"a,b.ux\",\"a,b.uy\",\"a,b.vx\",\"a,b.vy\",\"a,b.sxx\",\"a,b.syy\",\"a,b.sxy\","
-            "span.convergence,kinetic,strain,contact,gravity,friction,damping,fracture,external,"
-            "step_change,drift,unbalanced,transfer,cracks_tension,cracks_shear\n");
+  EXPECT_EQ(
+      header_of(ResultFile::history),
+      "time,crown.ux,crown.uy,crown.vx,crown.vy,crown.ax,crown.ay,crown.sxx,crown.syy,crown.sxy,"
+      "\"a,b.ux\",\"a,b.uy\",\"a,b.vx\",\"a,b.vy\",\"a,b.ax\",\"a,b.ay\",\"a,b.sxx\",\"a,b.syy\","
+      "\"a,b.sxy\","
+      "span.convergence,kinetic,strain,contact,gravity,friction,damping,fracture,external,"
+      "step_change,drift,unbalanced,transfer,cracks_tension,cracks_shear\n");
   EXPECT_EQ(header_of(ResultFile::reactions), "time,base.fx,base.fy,1.fx,1.fy\n");
   EXPECT_EQ(header_of(ResultFile::bolts),
             "time,bolt,distance,x,y,axial_force,bond_force,dowel_force,utilisation,yielded,"
@@ -98,6 +100,14 @@ TEST(Columns, KeepTheirNames) {
             "id,name,x,y,ux,uy,displacement,rotation,turning_part,motion\n");
   EXPECT_EQ(header_of(ResultFile::mechanism_joints),
             "block_i,block_j,joint,x,y,slip,opening,turning,motion,table\n");
+  EXPECT_EQ(header_of(ResultFile::motions),
+            "monitor,direction,stage,start,end,peak_acceleration,peak_velocity,peak_displacement,"
+            "permanent_displacement,arias,arias_duration\n");
+  EXPECT_EQ(header_of(ResultFile::spectra),
+            "monitor,direction,stage,period,pseudo_acceleration,relative_velocity,"
+            "relative_displacement\n");
+  EXPECT_EQ(header_of(ResultFile::amplification), "direction,stage,period,amplification\n");
+  EXPECT_EQ(header_of(ResultFile::relative), "stage,time,ux,uy\n");
   EXPECT_EQ(header_of(ResultFile::columns), "file,column,unit,meaning\n");
   EXPECT_EQ(header_of(ResultFile::cut), "block,material,ring,x,y,joint,table\n");
 }

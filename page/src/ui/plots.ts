@@ -13,6 +13,7 @@ const ENERGIES = ['kinetic', 'strain', 'contact', 'gravity', 'friction', 'dampin
 const MONITOR: [string, string[], string][] = [
   ['displacement', ['ux', 'uy'], 'm'],
   ['velocity', ['vx', 'vy'], 'm/s'],
+  ['acceleration', ['ax', 'ay'], 'm/s2'],
   ['stress', ['sxx', 'syy', 'sxy'], 'Pa'],
 ];
 

@@ -249,15 +249,34 @@ void check_solver(const Value& root, Reading& reading) {
   }
 }
 
+/// Without the rounding of the times from which it follows, so that rows are at times of few
+/// digits.
+double in_few_digits(double interval) {
+  return std::isfinite(interval) ? std::strtod(fmt::format("{:.9g}", interval).c_str(), nullptr)
+                                 : interval;
+}
+
+double mean_interval(const std::vector<double>& time) {
+  return (time.back() - time.front()) / static_cast<double>(time.size() - 1);
+}
+
+/// The shortest mean interval of the records of ground motions, s; infinite without any.
+double interval_of_record(const Model& model) {
+  double finest = std::numeric_limits<double>::infinity();
+  for (const Shaking& shaking : model.shakings) {
+    if (shaking.record.time.size() > 1)
+      finest = std::min(finest, mean_interval(shaking.record.time));
+  }
+  return in_few_digits(finest);
+}
+
 /// The shortest mean interval of the records of ground motions and of histories of many rows, or a
 /// twentieth of the period of a sine, s.
 double finest_record(const Model& model) {
   double finest = std::numeric_limits<double>::infinity();
   const auto look = [&](const std::vector<double>& time) {
     constexpr std::size_t many = 20;
-    if (time.size() > many)
-      finest =
-          std::min(finest, (time.back() - time.front()) / static_cast<double>(time.size() - 1));
+    if (time.size() > many) finest = std::min(finest, mean_interval(time));
   };
   for (const Shaking& shaking : model.shakings) {
     look(shaking.record.time);
@@ -266,9 +285,24 @@ double finest_record(const Model& model) {
   }
   for (const Load& load : model.loads) look(load.factor.time);
   for (const Boundary& boundary : model.boundaries) look(boundary.factor.time);
-  // Without the rounding of the times, so that rows are at times of few digits.
-  return std::isfinite(finest) ? std::strtod(fmt::format("{:.9g}", finest).c_str(), nullptr)
-                               : finest;
+  return in_few_digits(finest);
+}
+
+/// history_every = "record".
+void take_interval_of_record(const Value& root, Reading& reading) {
+  const Value* const value = find(find(&root, "output"), "history_every");
+  const auto* const word = value == nullptr ? nullptr : std::get_if<std::string>(&value->content);
+  if (word == nullptr || *word != "record") return;
+  const double interval = interval_of_record(reading.model);
+  const auto& shakings = reading.model.shakings;
+  if (std::isfinite(interval)) {
+    reading.model.output.history_every = interval;
+  } else if (std::all_of(shakings.begin(), shakings.end(),
+                         [](const Shaking& s) { return s.acceleration.file.empty(); })) {
+    add_fault(reading, value->place, "output.history_every",
+              "is the interval of a record, and no [[shaking]] has one",
+              "give acceleration = \"FILE\" in a [[shaking]], or a time such as \"10 ms\"");
+  }
 }
 
 /// A default of duration / `parts` (0 where no duration is given), or `finer`, and a fault where
@@ -360,6 +394,7 @@ void complete(const Value& root, Reading& reading) {
   complete_zones(root, reading);
   complete_interval(root, "every", model.output.every, 20.0,
                     std::numeric_limits<double>::infinity(), 1e5, reading);
+  take_interval_of_record(root, reading);
   complete_interval(root, "history_every", model.output.history_every, 200.0, finest_record(model),
                     1e7, reading);
   const Value* output = find(&root, "output");

@@ -57,12 +57,13 @@ struct ReadInto {
   void operator()(long long* field) const {
     if (const auto value = read_integer(spot)) *field = *value;
   }
+  /// Where a word is given in place of the number, complete.cpp finds it.
   void operator()(double* field) const {
+    if (is_word_of_rule()) return;
     if (const auto value = number()) *field = *value;
   }
   void operator()(std::optional<double>* field) const {
-    const std::string* word = as<std::string>(spot.value);
-    if (word != nullptr && !spot.key.rule.word.empty() && *word == spot.key.rule.word) {
+    if (is_word_of_rule()) {
       field->reset();
     } else if (const auto value = number()) {
       *field = *value;
@@ -70,8 +71,7 @@ struct ReadInto {
   }
   void operator()(std::optional<long long>* field) const { *field = read_integer(spot); }
   void operator()(std::optional<Restitution>* field) const {
-    const std::string* word = as<std::string>(spot.value);
-    if (word != nullptr && *word == spot.key.rule.word) {
+    if (is_word_of_rule()) {
       *field = Restitution{true, 0.0};
     } else if (const auto value = number()) {
       *field = Restitution{false, *value};
@@ -182,6 +182,10 @@ struct ReadInto {
     }
   }
 
+  bool is_word_of_rule() const {
+    const std::string* word = as<std::string>(spot.value);
+    return word != nullptr && !spot.key.rule.word.empty() && *word == spot.key.rule.word;
+  }
   std::optional<double> number() const {
     return read_number(spot.value, spot.key, spot.path, spot.reading);
   }

@@ -349,7 +349,7 @@ constexpr std::array solver_keys{
 
 constexpr std::array output_keys{
     Key{"every", at<&Output::every>, number(D::time, above(0)), or_none("solver.duration / 20, or of the stages that have one"), "Time between frames (the state of all blocks)."},
-    Key{"history_every", at<&Output::history_every>, number(D::time, above(0)), or_none("a tenth of that of every, or the interval of a record, or a twentieth of a sine's period"), "Time between rows of history.csv."},
+    Key{"history_every", at<&Output::history_every>, number_or("record", D::time, above(0)), or_none("a tenth of that of every, or the interval of a record, or a twentieth of a sine's period"), "Time between rows of history.csv; \"record\": the interval of the ground motion's record, the shortest where there are several."},
     Key{"settling", at<&Output::settling>, flag, otherwise("true where neither every nor history_every is given"), "In stages until equilibrium, whose length is not known in advance: additional rows and frames, at intervals that grow with time."},
     Key{"checkpoint_every", at<&Output::checkpoint_every>, number(D::plain, above(0)), initial, "Minutes of wall time between checkpoints."},
     Key{"stages", at<&Output::stages>, flag, initial, "With stages: whether joints_N.csv and checkpoint_N.h5 are written at the end of each."},

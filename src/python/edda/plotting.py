@@ -124,6 +124,8 @@ _ENDINGS = {
     "uy": ("displacement", "m"),
     "vx": ("velocity", "m/s"),
     "vy": ("velocity", "m/s"),
+    "ax": ("acceleration", "m/s2"),
+    "ay": ("acceleration", "m/s2"),
     "sxx": ("stress", "Pa"),
     "syy": ("stress", "Pa"),
     "sxy": ("stress", "Pa"),

@@ -59,11 +59,11 @@ class Results:
     def history(self) -> Table:
         """A row per output.history_every.
 
-        time (s); of each monitor NAME.ux, .uy (m), .vx, .vy (m/s), .sxx, .syy, .sxy (Pa), of each convergence line
-        NAME.convergence (m), of each measured region NAME.mean_sxx, .mean_syy, .mean_szz, .mean_sxy (Pa), .mean_exx,
-        .mean_eyy, .mean_exy; kinetic, strain, contact, gravity, friction, damping, fracture, external, step_change
-        (J, as Ledger); drift, unbalanced (ratios); transfer (J, as Ledger); cracks_tension, cracks_shear (joints with
-        fracture energy that are broken).
+        time (s); of each monitor NAME.ux, .uy (m), .vx, .vy (m/s), .ax, .ay (m/s2, in a frame at rest, mean since the row
+        before), .sxx, .syy, .sxy (Pa), of each convergence line NAME.convergence (m), of each measured region
+        NAME.mean_sxx, .mean_syy, .mean_szz, .mean_sxy (Pa), .mean_exx, .mean_eyy, .mean_exy; kinetic, strain, contact,
+        gravity, friction, damping, fracture, external, step_change (J, as Ledger); drift, unbalanced (ratios); transfer
+        (J, as Ledger); cracks_tension, cracks_shear (joints with fracture energy that are broken).
         """
         return read_table(self._file("history.csv"))
 
