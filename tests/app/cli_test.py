@@ -54,7 +54,7 @@ class Cli(RampProgram):
         self.assertEqual(" ".join(joints[0]),
                          "block_i block_j joint x y normal_force shear_force opening slip state ever_slipped ever_opened mobilised "
                          "length closed_length x_a y_a x_b y_b normal_stress normal_stress_a normal_stress_b shear_stress table "
-                         "damage broken_by")
+                         "damage broken_by aperture discharge water_pressure_a water_pressure_b")
         self.assertEqual(done.stdout.splitlines()[0][:9], "completed")
 
     def test_input_hash_is_that_of_the_file(self):

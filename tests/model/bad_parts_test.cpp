@@ -82,8 +82,52 @@ TEST(BadModel, Waters) {
                "a list of names"},
            Bad{"[[water]]\ntable = [[0, 1], [2, 1]]\nunit_weight = 0\n", 44, "water.0.unit_weight",
                "out of range"},
+           Bad{"[[water]]\nlevel = 3\n", 43, "water.0.level", "add [flow]"},
+           Bad{"[[water]]\ntable = [[0, 1], [2, 1]]\nsides = [\"left\"]\n", 44, "water.0.sides",
+               "add [flow]"},
        }) {
     expect_fault(bad);
+  }
+}
+
+/// With more keys of the joint law of the base model on its line 9, and text from line 43 on.
+void expect_flow_fault(const std::string& of_joint, const Bad& bad) {
+  std::string base = testing::base_model;
+  const std::string angle = "friction_angle = 30.0\n";
+  base.insert(base.find(angle) + angle.size(), of_joint + "\n");
+  const Result<Model> result = read_model_text(base + bad.text, "m.toml", {});
+  ASSERT_FALSE(result.ok()) << bad.text;
+  ASSERT_EQ(result.faults().size(), 1U) << bad.text << to_string(result.faults()[1]);
+  const Fault& f = result.faults()[0];
+  EXPECT_EQ(f.where.line, bad.line) << to_string(f);
+  EXPECT_EQ(f.where.key, bad.key) << to_string(f);
+  EXPECT_NE(to_string(f).find(bad.fragment), std::string::npos) << to_string(f);
+}
+
+TEST(BadModel, Flow) {
+  const std::string flow = "[[water]]\ntable = [[0, 1], [2, 1]]\n[flow]\n", second = "[[water]]\n",
+                    aperture = "aperture = 1e-4";
+  for (const auto& [joint, bad] : std::vector<std::pair<std::string, Bad>>{
+           {aperture, {"[flow]\n", 43, "flow", "there is no water"}},
+           {aperture, {flow + "viscosity = 0\n", 46, "flow.viscosity", "out of range"}},
+           {"", {flow, 7, "joints.rough.aperture", "is missing"}},
+           {"residual_aperture = 2e-4\n" + aperture,
+            {flow, 9, "joints.rough.residual_aperture", "larger than aperture"}},
+           {"largest_aperture = 5e-5\n" + aperture,
+            {flow, 9, "joints.rough.largest_aperture", "smaller than aperture"}},
+           {"residual_aperture = 5e-5", {"", 9, "joints.rough.residual_aperture", "add aperture"}},
+           {aperture, {flow + second + "level = 3\n", 47, "water.1.level", "add sides or along"}},
+           {aperture,
+            {flow + second + "level = 3\ntable = [[0, 1], [2, 1]]\n", 47, "water.1.level",
+             "table is given too"}},
+           {aperture,
+            {flow + second + "level = 3\nsides = [\"left\"]\nalong = [[0, 0], [1, 1]]\n", 49,
+             "water.1.along", "sides is given too"}},
+           {aperture,
+            {flow + second + "level = 3\nsides = [\"left\"]\nunit_weight = 1e4\n", 49,
+             "water.1.unit_weight", "differs from that of water.0"}},
+       }) {
+    expect_flow_fault(joint, bad);
   }
 }
 

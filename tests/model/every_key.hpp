@@ -31,6 +31,9 @@ tensile_strength = 1e3
 residual = { friction_angle = 12, cohesion = "1 kPa", tensile_strength = 2.5 }
 kn = "20 GPa/m"
 ks = 9e9
+aperture = "0.2 mm"
+residual_aperture = 3e-5
+largest_aperture = "1 mm"
 restitution = 0.4
 [joints.weak]
 type = "slip-weakening"
@@ -38,17 +41,20 @@ friction_angle = 35
 residual = { friction_angle = 25 }
 dilation_angle = 4
 slip_distance = "5 mm"
+aperture = 0
 [joints.tough]
 friction_angle = 35
 cohesion = "10 MPa"
 tensile_strength = "4 MPa"
 fracture_energy = "40 J/m2"
 shear_fracture_energy = 400
+aperture = 0
 [joints.barton]
 type = "barton-bandis"
 jrc = 9
 jcs = "80 MPa"
 residual_angle = 28
+aperture = 0
 [contact]
 model = "faces"
 normal_stiffness = "200 MN/m"
@@ -225,6 +231,16 @@ table = [[0, 4], [30, 5]]
 flooded = ["cavern"]
 unit_weight = "10 kN/m3"
 history = "tests/model/rise.csv"
+[[water]]
+level = "3 m"
+unit_weight = 1e4
+along = [[0, 0], [0, 9]]
+[[water]]
+table = [[0, 4], [30, 5]]
+unit_weight = 1e4
+sides = ["left"]
+[flow]
+viscosity = "1.3 mPa s"
 [[shaking]]
 name = "quake"
 acceleration = "tests/model/quake.at2"

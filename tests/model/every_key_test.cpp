@@ -323,7 +323,15 @@ void expect_every_load_key(const Model& m) {
   EXPECT_EQ(m.loads[1].factor.value, (std::vector<double>{0.0, 2.5}));
   EXPECT_EQ(m.loads[2].within.size(), 3U);
   EXPECT_EQ(m.loads[2].body_force, (Vec2{1e3, -5.0}));
-  ASSERT_EQ(m.waters.size(), 1U);
+  ASSERT_EQ(m.waters.size(), 3U);
+  EXPECT_EQ(m.waters[1].level, 3.0);
+  EXPECT_EQ(m.waters[1].along, (std::vector<Vec2>{{0, 0}, {0, 9}}));
+  EXPECT_EQ(m.waters[2].sides, std::vector<std::string>{"left"});
+  ASSERT_TRUE(m.flow);
+  EXPECT_EQ(m.flow->viscosity, 1.3e-3);
+  EXPECT_EQ(m.joints[1].aperture, 2e-4);
+  EXPECT_EQ(m.joints[1].residual_aperture, 3e-5);
+  EXPECT_EQ(m.joints[1].largest_aperture, 1e-3);
   EXPECT_EQ(m.waters[0].table[1], (Vec2{30, 5}));
   EXPECT_EQ(m.waters[0].flooded, (std::vector<std::string>{"cavern"}));
   EXPECT_EQ(m.waters[0].unit_weight, 1e4);

@@ -8,6 +8,11 @@ namespace {
 
 void check_water(const Value* node, const Water& water, Reading& reading) {
   const std::string& key = water.where.key;
+  if (!reading.model.flow && !given(node, "table") && !given(node, "level")) {
+    add_fault(reading, node->place, key + ".table", "is missing",
+              "give its level from left to right, such as table = [[0, 5], [20, 5]]");
+    return;
+  }
   if (!one_of(node, key, "table", "level",
               "a level from left to right such as table = [[0, 5], [20, 5]]", reading))
     return;
