@@ -92,7 +92,8 @@ void warn_of_dry_waters(const Simulation& sim, std::vector<std::string>& warning
   for (const WetEdge& e : sim.attached.loads.wet) {
     const double y = b.vertex(e.edge).y, rise = b.vertex(b.next[e.edge]).y - y;
     const bool under = y + e.from * rise < e.level_from || y + e.to * rise < e.level_to;
-    if (under) wets[static_cast<std::size_t>(e.water)] = true;
+    const auto row = static_cast<std::size_t>(e.water);
+    if (under && row < wets.size()) wets[row] = true;
   }
   for (const WetZone& z : sim.attached.loads.wet_zones) {
     const double y = b.centroid_y[z.block] + centre_of_zone(b.meshes, z.zone).y;
@@ -100,7 +101,8 @@ void warn_of_dry_waters(const Simulation& sim, std::vector<std::string>& warning
   }
   for (std::size_t q = 0; q < wets.size(); ++q) {
     const Water& water = model.waters[q];
-    if (wets[q] || !water.history.empty()) continue;
+    const bool in_rock = !water.sides.empty() || !water.along.empty();
+    if (wets[q] || in_rock || !water.history.empty()) continue;
     warnings.push_back(fmt::format(
         "{}: the table lies below all faces of free blocks: it has no effect; check its level",
         water.where.key));

@@ -48,6 +48,12 @@ std::optional<Fault> without_limit(const Model& model, const Fos& fos) {
                     "a ground motion has no limit load: limit analysis is statics",
                     "vary \"kh\", the seismic coefficient");
   }
+  if (fos.varied == Varied::water && model.flow) {
+    return fault_at(model, fos.where, "fos.vary",
+                    "a multiplier of the pressure of a water changes the flow through the joints, "
+                    "which limit analysis takes as it is",
+                    "run edda fos, or vary \"strength\"");
+  }
   if (model.contact.model == ContactModel::points) {
     return fault_at(model, model.contact.where, "contact.model",
                     "\"points\" is the paper's contact model, without joints that have a length",

@@ -399,4 +399,14 @@ ROWS = (
     Row(85, "A lining that comes later",
         "The same under 1 MPa all round, lined when 0.6 of the wall forces have been released.",
         "0.4 of the thrust of a lining from the beginning."),
+    Row(92, "Uplift under a dam",
+        "A dam 20 m wide on one joint has 15 m of water before it and 3 m behind it, without drains and with drain holes 4 m behind its"
+        " heel.",
+        "The weight less the uplift, which is linear between heads."),
+    Row(93, "A joint closes and conducts less",
+        "A joint with kn lies under a block 50 m high, with still water of 6 m at its ends.",
+        "Its aperture as drawn less effective stress over kn."),
+    Row(94, "Flow to a tunnel",
+        "Two sets of joints 1 m apart are drained by a tunnel of 4 m radius; the head is given at 16 m.",
+        "Radial flow in a continuum of the same conductivity (cubic law)."),
 )
