@@ -235,7 +235,7 @@ namespace {
 BlockDeformation deformation_of(const Model& model, const BlockPolygon& block) {
   if (model.contact.model != ContactModel::faces || block.fixed || block.material == none)
     return BlockDeformation::uniform;
-  if (block.lining != none) return BlockDeformation::zones;
+  if (block.lining != none || block.fill != none) return BlockDeformation::zones;
   const Material& material = model.materials[static_cast<std::size_t>(block.material)];
   if (material.deformation != BlockDeformation::automatic) return material.deformation;
   if (material.yield || material.foliation) return BlockDeformation::zones;
@@ -311,6 +311,10 @@ BlockSet build_blocks(const Model& model, const PolygonSet& polygons) {
     if (lining != nullptr) {
       b.lining.resize(polygons.blocks.size(), none);
       b.lining[b.area.size() - 1] = polygon.lining;
+    }
+    if (polygon.fill != none) {
+      b.fill.resize(polygons.blocks.size(), none);
+      b.fill[b.area.size() - 1] = polygon.fill;
     }
     if (!polygon.name.empty()) b.names[static_cast<Id>(b.area.size() - 1)] = polygon.name;
     b.vertex_begin.push_back(static_cast<Id>(b.vertex_block.size()));
