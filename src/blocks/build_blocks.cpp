@@ -304,17 +304,12 @@ BlockSet build_blocks(const Model& model, const PolygonSet& polygons) {
     b.inradius.push_back(lining != nullptr ? 0.5 * lining->drawn_thickness()
                                            : half_width(polygon.rings[0]));
     b.material.push_back(polygon.material);
-    if (polygon.opening != none) {
-      b.opening.resize(polygons.blocks.size(), none);
-      b.opening[b.area.size() - 1] = polygon.opening;
-    }
-    if (lining != nullptr) {
-      b.lining.resize(polygons.blocks.size(), none);
-      b.lining[b.area.size() - 1] = polygon.lining;
-    }
-    if (polygon.fill != none) {
-      b.fill.resize(polygons.blocks.size(), none);
-      b.fill[b.area.size() - 1] = polygon.fill;
+    for (const auto& [rows, row] : {std::pair{&b.opening, polygon.opening},
+                                    {&b.lining, polygon.lining},
+                                    {&b.fill, polygon.fill}}) {
+      if (row == none) continue;
+      rows->resize(polygons.blocks.size(), none);
+      (*rows)[b.area.size() - 1] = row;
     }
     if (!polygon.name.empty()) b.names[static_cast<Id>(b.area.size() - 1)] = polygon.name;
     b.vertex_begin.push_back(static_cast<Id>(b.vertex_block.size()));

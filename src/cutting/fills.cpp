@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -19,6 +20,23 @@ const Ring& outline_of(const Model& model, const Fill& fill) {
   return std::find_if(model.openings.begin(), model.openings.end(),
                       [&](const Opening& o) { return o.name == fill.opening; })
       ->polygon;
+}
+
+/// What the model has that fill cannot be with. Still water acts on faces and in pores as it did
+/// before there was fill: it may be in rock, but not in fill.
+std::optional<Fault> at_odds(const Model& model, const Fill& fill) {
+  if (model.plane == Plane::stress) {
+    return Fault{fill.where, "consists of zones, which are in plane strain",
+                 "leave out plane = \"stress\""};
+  }
+  for (const Water& water : model.waters) {
+    const bool flooded =
+        std::find(water.flooded.begin(), water.flooded.end(), fill.opening) != water.flooded.end();
+    if (!fill.opening.empty() && !flooded) continue;
+    return Fault{fill.where, "would lie in " + water.where.key + ", and no water acts on fill",
+                 "give it an opening that is not flooded, or loads in place of the water"};
+  }
+  return {};
 }
 
 /// A model of the fill alone, which joints at right angles to gravity cut into lifts.
@@ -99,6 +117,10 @@ Faults add_fills(const Model& model, PolygonSet& polygons) {
   Faults faults;
   for (std::size_t q = 0; q < model.fills.size(); ++q) {
     const Fill& fill = model.fills[q];
+    if (auto fault = at_odds(model, fill)) {
+      faults.push_back(*fault);
+      continue;
+    }
     Result<std::vector<BlockPolygon>> parts = parts_of(model, fill, polygons.origin);
     if (!parts.ok()) {
       faults.insert(faults.end(), parts.faults().begin(), parts.faults().end());

@@ -98,9 +98,9 @@ std::optional<Id> block_within(const Simulation& sim, std::size_t i) {
   return {};
 }
 
-Fault without_room(const Simulation& sim, std::size_t i, std::string problem) {
+Fault without_room(const Simulation& sim, std::size_t i, const std::string& problem) {
   const Fill& fill = sim.scene->model.fills[static_cast<std::size_t>(sim.scene->blocks.fill[i])];
-  return {fill.where, std::move(problem),
+  return {fill.where, "there is no room for \"" + fill.name + "\": " + problem,
           "place it earlier, support the rock, or give it a polygon where there is room"};
 }
 
@@ -126,9 +126,9 @@ std::optional<Fault> place_next(Simulation& sim, std::vector<std::uint8_t>& ther
   for (const Id i : placed.empty() ? waiting : placed) {
     there[i] = 1;
     if (!begin_fill(sim.scene->zones, b, sim.motion.state, i, sim.motion.zones))
-      return without_room(sim, i, "the walls have moved so far that its zones would overlap");
+      return without_room(sim, i, "the walls have moved too far for its zones");
     if (const auto other = block_within(sim, i))
-      return without_room(sim, i, block_label(b, *other) + " has moved to where it is to be");
+      return without_room(sim, i, block_label(b, *other) + " has moved into it");
   }
   waiting = std::move(later);
   return {};

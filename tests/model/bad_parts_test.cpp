@@ -134,6 +134,37 @@ TEST(BadModel, GroundMotions) {
   }
 }
 
+TEST(BadModel, Fills) {
+  const std::string paste = "[[fill]]\nname = \"paste\"\nopening = \"hole\"\n",
+                    pile = "[[fill]]\nname = \"pile\"\npolygon = [[0, 0], [1, 0], [1, 1]]\n";
+  const std::string stage = "[[stage]]\nduration = 0.05\n";
+  const std::string place = stage + "fill = [\"paste\"]\n", dig = "excavate = [\"hole\"]\n";
+  for (const Bad& bad : {
+           Bad{"[[fill]]\nopening = \"hole\"\n", 42, "fill.0.name", "is missing"},
+           Bad{"[[fill]]\nname = \"paste\"\n" + place, 42, "fill.paste", "opening"},
+           Bad{"[[fill]]\nname = \"paste\"\nopening = \"hol\"\n" + place, 44, "fill.paste.opening",
+               "did you mean \"hole\""},
+           Bad{"[[fill]]\nname = \"hole\"\nopening = \"hole\"\n" + stage + "fill = [\"hole\"]\n",
+               43, "fill.hole.name", "is the name of an opening, too"},
+           Bad{paste, 42, "fill.paste", "no stage places it"},
+           Bad{paste + paste + place, 46, "fill.1.name", "is the name of element 0"},
+           Bad{paste + "lift = 0\n" + place, 45, "fill.paste.lift", "above 0"},
+           Bad{paste + place + stage + "fill = [\"past\"]\n", 50, "stage.1.fill[0]",
+               "did you mean \"paste\""},
+           Bad{paste + place + place, 50, "stage.1.fill[0]", "has been placed before"},
+           Bad{paste + place + stage + dig, 47, "stage.0.fill[0]",
+               "which has not been excavated yet"},
+           Bad{pile + stage + "excavate = [\"pile\"]\n" + stage + "fill = [\"pile\"]\n", 47,
+               "stage.0.excavate[0]", "has not been placed yet"},
+           Bad{pile + stage + "fill = [\"pile\"]\n" + stage + "excavate = [\"pile\", \"pile\"]\n",
+               50, "stage.1.excavate[1]", "has been excavated before"},
+           Bad{pile + stage + "fill = [\"pile\"]\nrelax = { pile = 0.5 }\n", 48,
+               "stage.0.relax.pile", "has not been excavated yet"},
+       }) {
+    expect_fault(bad);
+  }
+}
+
 TEST(BadModel, Linings) {
   const std::string at = "[[lining]]\nopening = \"hole\"\n", thick = at + "thickness = 0.2\n";
   const std::string first = "[[lining]]\nname = \"a\"\nopening = \"hole\"\nthickness = 0.2\n";
@@ -326,7 +357,8 @@ TEST(BadModel, Stages) {
            Bad{stage + "otherwise = \"stop\"\n", 44, "stage.0.otherwise",
                "belongs to a stage with until"},
            Bad{stage + "detached = 3\n", 44, "stage.0.detached", "expects one of"},
-           Bad{stage + "excavate = [\"cave\"]\n", 44, "stage.0.excavate[0]", "names no opening"},
+           Bad{stage + "excavate = [\"cave\"]\n", 44, "stage.0.excavate[0]",
+               "names no opening or fill"},
            Bad{stage + "relax = { cave = 0.5 }\n", 44, "stage.0.relax.cave", "names no opening"},
            Bad{stage + "excavate = [\"hole\"]\nrelax = { hole = 0.6 }\n" + next +
                    "relax = { hole = 0.4 }\n",

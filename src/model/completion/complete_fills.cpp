@@ -5,24 +5,6 @@
 #include "model/stage_names.hpp"
 
 namespace edda {
-namespace {
-
-/// Still water acts on faces and in pores as it did before there was fill. It may therefore be
-/// where the model has water, in openings that are kept dry.
-void check_water(const Value* node, const Fill& fill, Reading& reading) {
-  for (const Water& water : reading.model.waters) {
-    const bool flooded =
-        std::find(water.flooded.begin(), water.flooded.end(), fill.opening) != water.flooded.end();
-    if (!fill.opening.empty() && !flooded) continue;
-    add_fault(reading, node->place, fill.where.key,
-              "fill under water is not available; " + water.where.key + " would act on it",
-              "give fill to an opening that is not flooded, or loads in place of the water");
-    return;
-  }
-}
-
-}  // namespace
-
 void complete_fills(const Value& root, Reading& reading) {
   const Model& model = reading.model;
   for (std::size_t i = 0; i < model.fills.size(); ++i) {
@@ -32,7 +14,6 @@ void complete_fills(const Value& root, Reading& reading) {
     const std::string& path = fill.where.key;
     one_of(node, path, "opening", "polygon", "opening = \"NAME\"", reading);
     check_opening(node, path, fill.opening, reading);
-    check_water(node, fill, reading);
     const bool is_opening = std::any_of(model.openings.begin(), model.openings.end(),
                                         [&](const Opening& o) { return o.name == fill.name; });
     if (is_opening && !fill.name.empty()) {
@@ -42,10 +23,6 @@ void complete_fills(const Value& root, Reading& reading) {
     if (!fill.name.empty() && !placed_in(model, fill.name)) {
       add_fault(reading, node->place, path, "no stage places it",
                 "name it in fill of the stage at whose start it comes");
-    }
-    if (model.plane == Plane::stress) {
-      add_fault(reading, node->place, path, "fill consists of zones, which are in plane strain",
-                "leave out plane = \"stress\"");
     }
     if (model.solver.method == Method::dda) {
       add_fault(reading, node->place, path, "fill is not available with method = \"dda\"",
