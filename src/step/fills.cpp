@@ -2,9 +2,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include <fmt/format.h>
-
 #include "base/polygon.hpp"
+#include "cutting/overlaps.hpp"
 #include "step/births.hpp"
 #include "step/changes.hpp"
 #include "step/labels.hpp"
@@ -44,7 +43,7 @@ std::vector<Vec2> moves_of_corners(const Simulation& sim, const std::vector<std:
 }
 
 /// Interpolation at p between values at the corners of a polygon, exact where these are linear
-/// (mean value coordinates; Floater 2003, Hormann and Floater 2006):
+/// (mean value coordinates; Hormann and Floater 2006):
 ///   sum w_v u_v / sum w_v,  w_v = (tan(a_v-1 / 2) + tan(a_v / 2)) / |x_v - p|,
 /// a_v the angle at which edge v is seen from p.
 Vec2 between_corners(const std::vector<Ring>& rings, const std::vector<Vec2>& values, Vec2 p) {
@@ -79,21 +78,32 @@ std::vector<Vec2> moved_nodes(const BlockSet& b, std::size_t i, const std::vecto
   return node;
 }
 
-/// A block that lies where fill i has been placed: with its centroid in it.
-std::optional<Id> block_within(const Simulation& sim, std::size_t i) {
-  const BlockSet& b = sim.scene->blocks;
-  const Pose& pose = sim.motion.pose;
-  std::vector<Ring> rings = drawn_rings(b, i);
-  Id v = b.vertex_begin[i];
-  for (Ring& ring : rings) {
+/// Block i where it is.
+BlockPolygon polygon_now(const Simulation& sim, std::size_t i) {
+  BlockPolygon block;
+  block.rings = drawn_rings(sim.scene->blocks, i);
+  Id v = sim.scene->blocks.vertex_begin[i];
+  for (Ring& ring : block.rings) {
     for (Vec2& p : ring) {
-      p = {pose.x[v], pose.y[v]};
+      p = {sim.motion.pose.x[v], sim.motion.pose.y[v]};
       ++v;
     }
   }
+  return block;
+}
+
+/// A block that lies where fill i has been placed: they overlap by more than half of its
+/// half-width, or of that of the fill.
+std::optional<Id> block_within(const Simulation& sim, std::size_t i) {
+  const BlockSet& b = sim.scene->blocks;
+  const State& state = sim.motion.state;
+  const BlockPolygon placed = polygon_now(sim, i);
   for (Id j = 0; j < b.size(); ++j) {
-    if (sim.motion.state.alive[j] == 0 || b.is_lining(j)) continue;
-    if (side_of(rings, centroid(sim.motion.state.position, j), 0.0) > 0) return j;
+    if (state.alive[j] == 0 || b.is_lining(j)) continue;
+    const double apart = norm(centroid(state.position, i) - centroid(state.position, j));
+    if (apart > 1.1 * (b.radius[i] + b.radius[j])) continue;
+    const double most = 0.5 * std::min(b.inradius[i], b.inradius[j]);
+    if (overlap_depth(placed, polygon_now(sim, j)) > most) return j;
   }
   return {};
 }

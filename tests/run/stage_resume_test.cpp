@@ -286,6 +286,7 @@ TEST(StageResume, ResumesToTheSameBitsWithFill) {
   const auto add = [&](const std::string& after, const std::string& text) {
     model.insert(model.find(after) + after.size(), text);
   };
+  add("cohesion = 1e3\n", "tensile_strength = 1e3\n");
   add("name = \"dig\"\n", "fill = [\"paste\"]\n");
   add("duration = 0.05\n", "excavate = [\"paste\"]\n");
   const std::string part = "relax = { hole = 1.0 }";
@@ -294,7 +295,7 @@ TEST(StageResume, ResumesToTheSameBitsWithFill) {
     model.replace(at, 14, "duration = 9.0");
   expect_resumed(
       "[[fill]]\nname = \"paste\"\nopening = \"hole\"\nlift = 0.8\njoint = \"j\"\n"
-      "material = \"rock\"\n[zones]\nsize = 0.7\n" +
+      "material = \"rock\"\n[zones]\nsize = 1.5\n" +
       model);
 }
 
