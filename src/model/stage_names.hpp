@@ -42,7 +42,7 @@ std::vector<Index> fills_called(const Model& model, const std::vector<std::strin
 std::optional<std::size_t> placed_in(const Model& model, const std::string& name);
 std::optional<std::size_t> excavated_in(const Model& model, const std::string& name);
 
-/// Owners of forces that are let go: first the rows of Model::openings, then the boundaries that
+/// Owners of forces that are released: first the rows of Model::openings, then the boundaries that
 /// took over, then fills that are excavated, then the weights of fills, which something else
 /// carries until they are placed.
 struct Owners {

@@ -164,7 +164,7 @@ TEST(Fills, HaveTheirOwnWeightUntilRockBesideThemGoes) {
   EXPECT_GT(vertical(mined.ready.sim, parts[1]), 1.5 * vertical(sim, parts[1]));
 }
 
-/// What is excavated of fill is gone, and what it carried is let go of.
+/// What is excavated of fill is gone, and what it carried is released.
 TEST(Fills, MayBeExcavatedAgain) {
   const Ran r = ran(stope(rest + rest + "excavate = ['stope']\n" + rest + "fill = ['paste']\n" +
                           rest + "excavate = ['paste']\n"));
