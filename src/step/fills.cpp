@@ -114,8 +114,8 @@ Fault without_room(const Simulation& sim, std::size_t i, const std::string& prob
           "place it earlier, support the rock, or give it a polygon where there is room"};
 }
 
-/// Places those of the blocks that touch what is there, on it; all where none does. Returns the
-/// rest.
+/// Places those of the blocks that wait and touch what is there; all, as drawn, where none does.
+/// The rest goes on waiting.
 std::optional<Fault> place_next(Simulation& sim, std::vector<std::uint8_t>& there,
                                 std::vector<Id>& waiting) {
   const BlockSet& b = sim.scene->blocks;
