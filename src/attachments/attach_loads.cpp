@@ -166,7 +166,7 @@ void wet_pores(const Model& model, const BlockSet& b, const Table& table, double
                std::vector<WetZone>& wet) {
   const Meshes& m = b.meshes;
   for (std::size_t i = 0; m.any() && i < b.size(); ++i) {
-    if (b.material[i] == none || b.is_lining(i)) continue;
+    if (b.material[i] == none || b.is_added(i)) continue;
     if (b.fixed[i] || !model.materials[static_cast<std::size_t>(b.material[i])].pore_pressure)
       continue;
     for (std::uint32_t z = m.zone_begin[i]; z < m.zone_begin[i + 1]; ++z) {
@@ -188,7 +188,8 @@ void attach_water(const Model& model, const Water& water, Index row, const Block
   std::vector<Part> dry;
   for (Id v = 0; v < b.vertex_count(); ++v) {
     const Id i = b.vertex_block[v];
-    if (b.fixed[i] || (b.is_lining(i) && is_drained(model, water, b.lining[i]))) continue;
+    if (b.fixed[i] || b.is_fill(i) || (b.is_lining(i) && is_drained(model, water, b.lining[i])))
+      continue;
     dry.clear();
     for (const auto& line : outlines) {
       const Part part = on_segment(b, v, line[0], line[1], snap);
@@ -202,6 +203,20 @@ void attach_water(const Model& model, const Water& water, Index row, const Block
               "give a table that lies above the blocks it is to act on"};
   fault.where.key += ".table";
   faults.push_back(fault);
+}
+
+/// The weights of fills are carried until these are placed.
+void attach_weights(const Model& model, const BlockSet& b, Loads& loads) {
+  const Owners owners(model);
+  loads.remaining.assign(static_cast<std::size_t>(owners.all()), {});
+  for (Index row = 0; row < owners.fills; ++row)
+    loads.remaining[static_cast<std::size_t>(owners.of_weight(row))] = {1.0, 1.0};
+  const auto before = static_cast<Index>(model.loads.size() + model.boundaries.size());
+  for (Id i = 0; i < b.size(); ++i) {
+    if (!b.is_fill(i)) continue;
+    loads.points.push_back(
+        {{i, centroid_weights}, -b.mass[i] * model.gravity, before + owners.of_weight(b.fill[i])});
+  }
 }
 
 /// Active intervals at the start: active, or not yet.
@@ -253,7 +268,7 @@ Result<Loads> attach_loads(const Model& model, const PolygonSet& polygons, const
   loads.intervals = {first_intervals(model, model.loads), first_intervals(model, model.waters),
                      first_intervals(model, model.boundaries),
                      first_intervals(model, model.shakings)};
-  loads.remaining.assign(model.openings.size() + model.boundaries.size(), {});
+  attach_weights(model, b, loads);
   constexpr SteppedValue as_given{1.0, 1.0};
   loads.slow.loads.assign(model.loads.size(), as_given);
   loads.slow.waters.assign(model.waters.size(), as_given);
@@ -272,7 +287,7 @@ Result<Loads> attach_loads(const Model& model, const PolygonSet& polygons, const
   }
   const auto is_stress = [](const Boundary& q) { return q.type == BoundaryType::stress; };
   const bool stressed = std::any_of(model.boundaries.begin(), model.boundaries.end(), is_stress);
-  if (model.loads.empty() && model.waters.empty() && !stressed) return loads;
+  if (model.loads.empty() && model.waters.empty() && model.fills.empty() && !stressed) return loads;
   const double snap = 4.0 * snap_distance(model, b);
   for (std::size_t q = 0; q < model.loads.size(); ++q) {
     const Load& load = model.loads[q];

@@ -15,7 +15,7 @@ struct Box {
   }
 };
 
-/// Of the rock; linings count where there is none.
+/// Of the rock; linings and fill count where there is none.
 Box model_box(const Model& model, const BlockSet& b) {
   Box rock, all;
   if (model.domain) {
@@ -24,7 +24,7 @@ Box model_box(const Model& model, const BlockSet& b) {
   }
   for (std::size_t v = 0; v < b.vertex_count(); ++v) {
     all.add(b.vertex(v));
-    if (!b.is_lining(b.vertex_block[v])) rock.add(b.vertex(v));
+    if (!b.is_added(b.vertex_block[v])) rock.add(b.vertex(v));
   }
   return rock.low.x < rock.high.x ? rock : all;
 }

@@ -171,6 +171,15 @@ void BoundarySprings::engage(Index row, const std::vector<double>& x,
   }
 }
 
+void BoundarySprings::engage_block(Id block, const std::vector<double>& x,
+                                   const std::vector<double>& y) {
+  for (std::size_t q = block_begin[block]; q < block_begin[block + 1]; ++q) {
+    const Vec2 moved = shift[static_cast<std::size_t>(boundary[q])];
+    start_x[q] = x[vertex[q]] - moved.x;
+    start_y[q] = y[vertex[q]] - moved.y;
+  }
+}
+
 double boundary_energy(const BoundarySprings& s, const Pose& pose) {
   return ordered_sum(s.size(), [&](std::size_t q) {
     const Id v = s.vertex[q];

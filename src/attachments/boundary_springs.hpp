@@ -30,6 +30,8 @@ struct BoundarySprings {
   void release(Index row);
   /// Activates the springs of one boundary, free of force where their vertices are at x, y.
   void engage(Index row, const std::vector<double>& x, const std::vector<double>& y);
+  /// Those on a block that was not there begin without force where it is.
+  void engage_block(Id block, const std::vector<double>& x, const std::vector<double>& y);
 };
 
 inline bool has_springs(BoundaryType type) {

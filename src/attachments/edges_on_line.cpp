@@ -65,7 +65,7 @@ std::vector<Part> free_parts(const std::vector<OnLine>& all, const OnLine& one, 
   std::vector<Part> covered;
   for (const OnLine& other : all) {
     if (other.along != one.along && b.vertex_block[other.edge] != b.vertex_block[one.edge] &&
-        !b.is_lining(b.vertex_block[other.edge]))
+        !b.is_added(b.vertex_block[other.edge]))
       covered.push_back({other.low, other.high});
   }
   std::vector<Part> parts;
@@ -86,11 +86,11 @@ std::vector<Piece> pieces_on(const BlockSet& b, const std::vector<Line>& lines, 
   std::vector<Piece> pieces;
   for (const Line& line : lines) {
     const std::vector<OnLine> all = edges_on(b, line.a, line.b, snap);
-    // The back of a lining, where rock lies on the same line.
+    // The back of a lining or of fill, where rock lies on the same line.
     const auto is_back = [&](const OnLine& e) {
-      return b.is_lining(b.vertex_block[e.edge]) &&
+      return b.is_added(b.vertex_block[e.edge]) &&
              std::any_of(all.begin(), all.end(), [&](const OnLine& other) {
-               return other.along != e.along && !b.is_lining(b.vertex_block[other.edge]) &&
+               return other.along != e.along && !b.is_added(b.vertex_block[other.edge]) &&
                       other.low < e.high && other.high > e.low;
              });
     };

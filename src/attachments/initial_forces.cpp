@@ -73,7 +73,7 @@ std::vector<WallForce> supported_initial_stress(const Model& model, const BlockS
     for (std::size_t q = 0; q < model.boundaries.size(); ++q) {
       const Boundary& boundary = model.boundaries[q];
       if (!intervals.boundaries[q].acts() || !is_meant(boundary.type)) continue;
-      const auto owner = static_cast<Index>(model.openings.size() + q);
+      const auto owner = Owners(model).of_boundary(static_cast<Index>(q));
       for (const Piece& p : newly_supported(model, b, boundary, supported)) {
         if (!keeps) continue;
         add_wall(forces, b, faces, p, owner);

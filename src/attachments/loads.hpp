@@ -15,6 +15,7 @@
 #include "blocks/pose.hpp"
 #include "cutting/polygon_set.hpp"
 #include "model/model.hpp"
+#include "model/stage_names.hpp"
 
 namespace edda {
 
@@ -193,9 +194,9 @@ void put_water(const BlockSet& blocks, std::vector<WetEdge> wet, Loads& loads);
 /// Adds loads on faces to the lists.
 void add_edge_loads(const BlockSet& blocks, const std::vector<EdgeLoad>& more, Loads& loads);
 
-/// A force on a vertex, N, of something that is no longer there: excavated rock, or a boundary that
-/// another took over from. Its owner determines the fraction that still acts (Loads::remaining): a
-/// row of Model::openings, or their number plus the row of the Model::boundaries that took over.
+/// A force on a vertex, N, of something that is no longer there: excavated rock or fill, or a
+/// boundary that another took over from. Its owner determines the fraction that still acts
+/// (Loads::remaining; Owners).
 struct WallForce {
   Id vertex;
   Vec2 force;

@@ -77,8 +77,10 @@ struct BlockSet {
   std::vector<double> radius;    ///< [nb] largest distance of a vertex from the centroid, m
   std::vector<double> inradius;  ///< [nb] half the smallest width of the outer ring, m
   std::vector<Index> material;   ///< [nb]
-  std::vector<Index> opening;  ///< [nb] opening for whose stage the block is excavated; empty: none
+  std::vector<Index> opening;  ///< [nb] owner (Owners) as whose rock or fill a stage excavates the
+                               ///< block; empty: none
   std::vector<Index> lining;   ///< [nb] row of Model::linings that the block is; empty: none is
+  std::vector<Index> fill;     ///< [nb] row of Model::fills that it is part of; empty: none is
   std::map<Id, std::vector<std::array<Id, 3>>>
       triangles;                    ///< vertices of the triangles of the blocks that are not convex
   std::map<Id, std::string> names;  ///< of the blocks that have one
@@ -90,6 +92,9 @@ struct BlockSet {
   bool bends(std::size_t i) const { return bending.modes_of(i) > 0; }
   bool is_meshed(std::size_t i) const { return meshes.nodes_of(i) > 0; }
   bool is_lining(std::size_t i) const { return !lining.empty() && lining[i] != none; }
+  bool is_fill(std::size_t i) const { return !fill.empty() && fill[i] != none; }
+  /// Whether it is no rock, and is drawn where rock may be.
+  bool is_added(std::size_t i) const { return is_lining(i) || is_fill(i); }
   /// The number of modes of block i: of its bending, or of its mesh.
   std::size_t count_modes(std::size_t i) const { return bending.modes_of(i) + meshes.nodes_of(i); }
   /// The number of places of modes of all blocks.

@@ -235,7 +235,7 @@ namespace {
 BlockDeformation deformation_of(const Model& model, const BlockPolygon& block) {
   if (model.contact.model != ContactModel::faces || block.fixed || block.material == none)
     return BlockDeformation::uniform;
-  if (block.lining != none) return BlockDeformation::zones;
+  if (block.lining != none || block.fill != none) return BlockDeformation::zones;
   const Material& material = model.materials[static_cast<std::size_t>(block.material)];
   if (material.deformation != BlockDeformation::automatic) return material.deformation;
   if (material.yield || material.foliation) return BlockDeformation::zones;
@@ -304,13 +304,12 @@ BlockSet build_blocks(const Model& model, const PolygonSet& polygons) {
     b.inradius.push_back(lining != nullptr ? 0.5 * lining->drawn_thickness()
                                            : half_width(polygon.rings[0]));
     b.material.push_back(polygon.material);
-    if (polygon.opening != none) {
-      b.opening.resize(polygons.blocks.size(), none);
-      b.opening[b.area.size() - 1] = polygon.opening;
-    }
-    if (lining != nullptr) {
-      b.lining.resize(polygons.blocks.size(), none);
-      b.lining[b.area.size() - 1] = polygon.lining;
+    for (const auto& [rows, row] : {std::pair{&b.opening, polygon.opening},
+                                    {&b.lining, polygon.lining},
+                                    {&b.fill, polygon.fill}}) {
+      if (row == none) continue;
+      rows->resize(polygons.blocks.size(), none);
+      (*rows)[b.area.size() - 1] = row;
     }
     if (!polygon.name.empty()) b.names[static_cast<Id>(b.area.size() - 1)] = polygon.name;
     b.vertex_begin.push_back(static_cast<Id>(b.vertex_block.size()));

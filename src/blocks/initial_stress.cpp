@@ -149,6 +149,7 @@ void set_initial_stress(BlockSet& b, const Model& model, const StressField& fiel
     values->resize(b.size());
   }
   for (std::size_t i = 0; i < b.size(); ++i) {
+    if (b.is_fill(i)) continue;
     const Tensor t = field.at({b.centroid_x[i], b.centroid_y[i]});
     b.initial_xx[i] = t.xx;
     b.initial_yy[i] = t.yy;

@@ -52,7 +52,7 @@ std::vector<Id> blocks_at(const Model& model, const PolygonSet& polygons, const 
   }
   const auto rank = [&](Id i) {
     const bool leaves = !b.opening.empty() && b.opening[i] != none;
-    return 2 * int{leaves} + int{b.fixed[i] != 0};
+    return 4 * int{b.is_fill(i)} + 2 * int{leaves} + int{b.fixed[i] != 0};
   };
   std::stable_sort(found.begin(), found.end(), [&](Id i, Id j) { return rank(i) < rank(j); });
   return found;

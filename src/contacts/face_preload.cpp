@@ -53,7 +53,7 @@ void lock_pressures(FaceSet& c, const BlockSet& b, const FaceTraction& traction)
   c.locked_start.resize(nv);
   c.locked_end.resize(nv);
   for (std::size_t e = 0; e < nv; ++e) {
-    if (b.is_lining(b.vertex_block[e])) {
+    if (b.is_added(b.vertex_block[e])) {
       c.locked_start[e] = c.locked_end[e] = never_pressed;
       continue;
     }
@@ -87,8 +87,7 @@ std::vector<JointStress> preload_faces(FaceSet& c, FaceStates& states, const Blo
   std::vector<RequiredForces> required;
   lock_pressures(c, b, traction);
   for (std::size_t k = 0; k < c.size(); ++k) {
-    if (b.is_lining(b.vertex_block[c.edge[k]]) || b.is_lining(b.vertex_block[c.facing[k]]))
-      continue;
+    if (b.is_added(b.vertex_block[c.edge[k]]) || b.is_added(b.vertex_block[c.facing[k]])) continue;
     const Face drawn = face_at(c, b, pose.x, pose.y, k);
     // Edges that meet at a corner only, as at a crossing of two joints at a few degrees, have a
     // void between them.

@@ -178,8 +178,8 @@ std::uint16_t LawTable::resolve_met(Index edge, Index facing, Index edge_materia
 std::uint16_t law_between(const LawTable& laws, const BlockSet& b, Id edge, Id facing, bool drawn) {
   const Id i = b.vertex_block[edge], j = b.vertex_block[facing];
   Index of_edge = b.edge_joint[edge], of_facing = b.edge_joint[facing];
-  if (b.is_lining(i) != b.is_lining(j)) {
-    const Index own = b.is_lining(i) ? of_edge : of_facing;
+  if (b.is_added(i) != b.is_added(j)) {
+    const Index own = b.is_added(i) ? of_edge : of_facing;
     const bool holds = own != none && (drawn || !laws.rows[static_cast<std::size_t>(own)].glued);
     if (holds) return static_cast<std::uint16_t>(own);
   }

@@ -109,7 +109,8 @@ struct LawTable {
 LawTable build_laws(const Model& model);
 
 /// Law of a face between two edges that lie against each other as drawn, or have met since: that
-/// which a lining names for itself, whatever the other names; else resolve() or resolve_met().
+/// which a lining or fill names for itself, whatever the other names; else resolve() or
+/// resolve_met().
 std::uint16_t law_between(const LawTable& laws, const BlockSet& blocks, Id edge, Id facing,
                           bool drawn);
 

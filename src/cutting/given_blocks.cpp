@@ -87,6 +87,7 @@ Vec2 model_centre(const Model& model, const Imports& imports) {
   if (model.domain) grow(box, model.domain->outline);
   for (const Opening& opening : model.openings) grow(box, opening.polygon);
   for (const Lining& lining : model.linings) grow(box, lining.along);
+  for (const Fill& fill : model.fills) grow(box, fill.polygon);
   for (const ImportedBlock& block : imports.blocks) grow(box, block.ring);
   if (box.low.x > box.high.x) return {};
   return box.low + (box.high - box.low) / 2.0;

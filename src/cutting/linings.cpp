@@ -150,7 +150,8 @@ bool lies_within(const BlockPolygon& lining, std::span<const BlockPolygon> block
     Vec2 middle;
     for (const std::uint32_t v : s.corners(p)) middle += 0.25 * corner[v];
     const auto holds = [&](const BlockPolygon& block) {
-      return block.opening == none && side_of(block.rings, middle, within) > 0;
+      return block.opening == none && block.fill == none &&
+             side_of(block.rings, middle, within) > 0;
     };
     if (std::any_of(blocks.begin(), blocks.end(), holds)) return true;
   }

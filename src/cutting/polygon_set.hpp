@@ -26,8 +26,10 @@ struct BlockPolygon {
   double angular_velocity = 0.0;  ///< rad/s about the centroid
   std::string name;               ///< of a [[block]], else empty
   Where where;                    ///< the table of the model that it comes from
-  Index opening = none;           ///< the opening it lies in, for rock that is excavated
+  Index opening = none;           ///< the opening it lies in, for rock that is excavated; for fill
+                                  ///< that is, its owner (Owners)
   Index lining = none;            ///< row of Model::linings, if it is one (cutting/linings.hpp)
+  Index fill = none;              ///< row of Model::fills, if it is part of one (cutting/fills.hpp)
   bool slow = false;  ///< a sliver that [quality] could not merge: its inertia is raised so that it
                       ///< does not shorten the step
 };

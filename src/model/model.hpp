@@ -333,6 +333,17 @@ struct Lining {
   double solidity() const;
 };
 
+/// [[fill]]: blocks that a stage places: paste, rock fill, concrete or masonry.
+struct Fill {
+  std::string name;
+  std::string opening;         ///< whose room it takes, or
+  Ring polygon;                ///< its own outline
+  std::optional<double> lift;  ///< m, height of the layers that it is divided into
+  Index material = none;
+  Index joint = none;  ///< law of its faces
+  Where where;
+};
+
 struct Monitor {
   std::string name;
   Vec2 point;
@@ -399,6 +410,7 @@ struct Model {
   std::vector<Bolt> bolts;
   std::vector<BoltPattern> bolt_patterns;
   std::vector<Lining> linings;
+  std::vector<Fill> fills;
   std::vector<Monitor> monitors;
   std::vector<Convergence> convergences;
   std::vector<Measurement> measurements;

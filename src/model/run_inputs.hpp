@@ -114,6 +114,7 @@ struct Stage {
   std::vector<std::string> excavate;   ///< openings excavated at its start
   NumberMap relax;                     ///< fraction of the wall forces released, by opening
   std::vector<std::string> install;    ///< bolts and patterns installed at its start
+  std::vector<std::string> fill;       ///< fills placed at its start
   std::vector<PropertyChange> change;  ///< at its start, one after the other
   std::vector<std::string> activate, deactivate;  ///< loads, waters, boundaries, shakings
   bool reset_displacements = false;               ///< at its start

@@ -44,6 +44,30 @@ std::vector<Index> linings_called(const Model& model, const std::vector<std::str
   return rows_of(model.linings, names);
 }
 
+std::vector<Index> fills_called(const Model& model, const std::vector<std::string>& names) {
+  return rows_of(model.fills, names);
+}
+
+namespace {
+
+std::optional<std::size_t> stage_that(const Model& model, std::vector<std::string> Stage::*list,
+                                      const std::string& name) {
+  for (std::size_t q = 0; q < model.stages.size(); ++q) {
+    if (holds(model.stages[q].*list, name)) return q;
+  }
+  return {};
+}
+
+}  // namespace
+
+std::optional<std::size_t> placed_in(const Model& model, const std::string& name) {
+  return stage_that(model, &Stage::fill, name);
+}
+
+std::optional<std::size_t> excavated_in(const Model& model, const std::string& name) {
+  return stage_that(model, &Stage::excavate, name);
+}
+
 std::optional<std::size_t> stage_called(const Model& model, const std::string& name) {
   for (std::size_t q = 0; q < model.stages.size(); ++q) {
     if (model.stages[q].name == name || std::to_string(q + 1) == name) return q;

@@ -36,6 +36,29 @@ bool acts_at_first(const Model& model, const std::string& name);
 /// stage installs them.
 bool installed_at_first(const Model& model, const std::string& name);
 
+/// Rows in Model::fills.
+std::vector<Index> fills_called(const Model& model, const std::vector<std::string>& names);
+/// The stage that places the fill of this name, and that which excavates it or an opening.
+std::optional<std::size_t> placed_in(const Model& model, const std::string& name);
+std::optional<std::size_t> excavated_in(const Model& model, const std::string& name);
+
+/// Owners of forces that are released: first the rows of Model::openings, then the boundaries that
+/// took over, then fills that are excavated, then the weights of fills, which something else
+/// carries until they are placed.
+struct Owners {
+  explicit Owners(const Model& model)
+      : openings(static_cast<Index>(model.openings.size())),
+        boundaries(static_cast<Index>(model.boundaries.size())),
+        fills(static_cast<Index>(model.fills.size())) {}
+  Index of_boundary(Index row) const { return openings + row; }
+  Index of_fill(Index row) const { return openings + boundaries + row; }
+  Index of_weight(Index row) const { return openings + boundaries + fills + row; }
+  /// Those of wall forces, and all.
+  Index of_walls() const { return openings + boundaries + fills; }
+  Index all() const { return of_walls() + fills; }
+  Index openings, boundaries, fills;
+};
+
 /// Row of the stage that has this name or number.
 std::optional<std::size_t> stage_called(const Model& model, const std::string& name);
 

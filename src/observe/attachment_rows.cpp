@@ -51,14 +51,14 @@ std::vector<Vec2> reactions(const Simulation& sim, const Instant& at) {
                            e.ends.at_from + e.ends.at_to);
   }
   // The forces that a boundary has taken over from another are part of its reaction.
-  const auto openings = static_cast<Index>(sim.scene->model.openings.size());
+  const Owners owners(sim.scene->model);
   for (const WallForce& f : sim.attached.wall_forces) {
-    if (f.owner < openings ||
+    if (f.owner < owners.of_boundary(0) || f.owner >= owners.of_fill(0) ||
         !is_free(sim.scene->blocks, sim.motion.state, sim.scene->blocks.vertex_block[f.vertex])) {
       continue;
     }
     const auto row = static_cast<std::size_t>(f.owner);
-    sum[row - static_cast<std::size_t>(openings)] +=
+    sum[row - static_cast<std::size_t>(owners.of_boundary(0))] +=
         sim.attached.loads.remaining[row].at(sim.motion.state.time, sim.attached.loads.gradual) *
         f.force;
   }

@@ -61,8 +61,10 @@ std::vector<std::string> border_points(const Simulation& sim) {
   const auto look = [&](const std::string& what, Vec2 point, Among among) {
     std::vector<Id> blocks =
         blocks_at(sim.scene->model, sim.scene->polygons, b, point - b.origin, among);
-    // At the wall of rock that a stage excavates the choice is clear.
-    const auto leaves = [&](Id i) { return !b.opening.empty() && b.opening[i] != none; };
+    // At the wall of rock that a stage excavates, or of fill, the choice is clear.
+    const auto leaves = [&](Id i) {
+      return b.is_fill(i) || (!b.opening.empty() && b.opening[i] != none);
+    };
     if (!blocks.empty() && !leaves(blocks.front())) std::erase_if(blocks, leaves);
     if (blocks.size() < 2) return;
     std::string others;

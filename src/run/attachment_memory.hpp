@@ -156,7 +156,7 @@ void list_wall_forces(Archive& a, Simulation& s) {
   a("wall_force.owner", owner);
   const bool all = list_stepped(a, "remaining", s.attached.loads.remaining);
   if constexpr (Archive::loads) {
-    const std::size_t owners = s.scene->model.openings.size() + s.scene->model.boundaries.size();
+    const auto owners = static_cast<std::size_t>(Owners(s.scene->model).of_walls());
     bool fits = all && force.size() == vertex.size() && owner.size() == vertex.size();
     for (std::size_t k = 0; fits && k < vertex.size(); ++k) {
       fits = vertex[k] < s.scene->blocks.vertex_count() && owner[k] >= 0 &&

@@ -39,6 +39,7 @@ std::string first_states(const Model& model) {
   add(model.bolts, "bolt", there);
   add(model.bolt_patterns, "bolt_pattern", there);
   add(model.linings, "lining", there);
+  add(model.fills, "fill", [&](const Fill& f) { return excavated_in(model, f.name).has_value(); });
   add(model.openings, "opening", [](const Opening& o) { return o.staged; });
   return text;
 }

@@ -92,7 +92,10 @@ void warn_of_lost_points(const PreparedRun& run, std::vector<std::string>& warni
     const Index row =
         run.sim.scene->blocks.opening.empty() ? none : run.sim.scene->blocks.opening[block];
     if (row == none) return;
-    const std::string& opening = model.openings[static_cast<std::size_t>(row)].name;
+    const Owners owners(model);
+    const std::string& opening =
+        row < owners.openings ? model.openings[static_cast<std::size_t>(row)].name
+                              : model.fills[static_cast<std::size_t>(row - owners.of_fill(0))].name;
     for (const Stage& stage : model.stages) {
       if (std::find(stage.excavate.begin(), stage.excavate.end(), opening) == stage.excavate.end())
         continue;

@@ -13,7 +13,10 @@
 namespace edda {
 namespace {
 
-Index opening_called(const Model& model, const std::string& name) {
+/// Of an opening or a fill.
+Index owner_called(const Model& model, const std::string& name) {
+  const std::vector<Index> fills = fills_called(model, {name});
+  if (!fills.empty()) return Owners(model).of_fill(fills.front());
   const auto found = std::find_if(model.openings.begin(), model.openings.end(),
                                   [&](const Opening& o) { return o.name == name; });
   return static_cast<Index>(found - model.openings.begin());
@@ -25,11 +28,12 @@ StagePlan plan_of(const Model& model, const Stage& stage) {
                  rows_called(model, stage.activate),
                  bolts_called(model, stage.install),
                  linings_called(model, stage.install),
+                 fills_called(model, stage.fill),
                  {},
                  {}};
-  for (const std::string& name : stage.excavate) plan.out.push_back(opening_called(model, name));
+  for (const std::string& name : stage.excavate) plan.out.push_back(owner_called(model, name));
   for (const auto& [name, part] : stage.relax) {
-    plan.relax.emplace_back(opening_called(model, name), part);
+    plan.relax.emplace_back(owner_called(model, name), part);
   }
   return plan;
 }
@@ -129,6 +133,9 @@ std::optional<Fault> enter_stage(Simulation& sim, const StagePlan& given, bool f
   excavate_openings(sim, plan);
   for (const PropertyChange& change : stage.change) change_properties(sim, change);
   switch_over(sim, plan.off, plan.on);
+  if (!plan.fills.empty()) {
+    if (auto fault = place_fills(sim, plan.fills)) return fault;
+  }
   if (!plan.linings.empty()) install_linings(sim, plan.linings);
   // Bolts are installed in the rock that remains.
   if (!plan.bolts.empty()) {

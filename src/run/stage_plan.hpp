@@ -19,9 +19,10 @@ struct StagePlan {
   NamedRows off, on;                            ///< what it deactivates and activates
   std::vector<Index> bolts;                     ///< rows of all_bolts() that it installs
   std::vector<Index> linings;                   ///< rows of Model::linings that it installs
-  std::vector<Index> out;                       ///< rows of Model::openings that it excavates
-  std::vector<std::pair<Index, double>> relax;  ///< openings, and the fraction of their wall forces
-                                                ///< that it releases
+  std::vector<Index> fills;                     ///< rows of Model::fills that it places
+  std::vector<Index> out;                       ///< openings and fills (Owners) that it excavates
+  std::vector<std::pair<Index, double>> relax;  ///< the same, and the fraction of the forces on
+                                                ///< their walls that it releases
 };
 
 /// The stages of a model in order; for a model without stages, the one stage that it consists of.
@@ -30,7 +31,7 @@ std::vector<StagePlan> plan_stages(const Model& model);
 /// Makes the changes at the beginning of a stage of the model, between two steps; a ramp is at its
 /// first value. After the `first`
 /// stage, changes that have been made from outside are skipped. Fault: a bolt without rock at its
-/// place.
+/// place, fill without room.
 std::optional<Fault> enter_stage(Simulation& sim, const StagePlan& plan, bool first);
 
 /// Changes of properties (stage.change) that would change nothing, in the blocks as drawn.

@@ -43,11 +43,6 @@ Vec2 velocity_of_ground_by(const Simulation& sim, const std::vector<Index>& rows
   return sum;
 }
 
-/// Owner, as in WallForce, of the forces that a boundary has taken over.
-Index owner_row(const Model& model, Index boundary) {
-  return static_cast<Index>(model.openings.size()) + boundary;
-}
-
 /// The part of a force on the vertex that a boundary can carry, 0 where the vertex does not lie on
 /// it. One that slides carries the part across its lines.
 Vec2 carried_by(const Model& model, const BlockSet& b, const Boundary& boundary, Id v, Vec2 force) {
@@ -101,7 +96,7 @@ std::vector<WallForce> release_boundaries(Simulation& sim, const std::vector<Ind
     wall_forces.push_back({springs.vertex[q], spring_force(springs, q, pose.x, pose.y), none});
   }
   for (const Index row : rows) {
-    const Index owner = owner_row(model, row);
+    const Index owner = Owners(model).of_boundary(row);
     for (const WallForce& f : kept) {
       if (f.owner == owner) wall_forces.push_back(f);
     }
@@ -163,7 +158,7 @@ void switch_over(Simulation& sim, const NamedRows& off, const NamedRows& on) {
       SteppedValue& multiplier = loads.slow.boundaries[static_cast<std::size_t>(row)];
       multiplier = {multiplier.value, 0.0, state.time};
     }
-    const Index owner = owner_row(model, row);
+    const Index owner = Owners(model).of_boundary(row);
     for (WallForce& f : wall_forces) {
       const Vec2 part = carried_by(model, sim.scene->blocks, boundary, f.vertex, f.force);
       if (part == Vec2{}) continue;

@@ -59,6 +59,9 @@ std::optional<Fault> install(Simulation& sim, const std::vector<Index>& bolts);
 void begin_blocks(Simulation& sim, const std::vector<Id>& blocks);
 /// Puts linings (rows of Model::linings) without stress on the walls as they are now.
 void install_linings(Simulation& sim, const std::vector<Index>& rows);
+/// Places fill (rows of Model::fills) without stress between the blocks as they are now; its weight
+/// is released gradually (Loads::remaining). Fault: there is no room for it.
+std::optional<Fault> place_fills(Simulation& sim, const std::vector<Index>& rows);
 /// Glues all closed contacts, so that they neither open nor slide, or ends this.
 void glue_joints(Simulation& sim, bool glued);
 

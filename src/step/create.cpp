@@ -9,6 +9,7 @@
 #include "contacts/strength.hpp"
 #include "cutting/build_polygons.hpp"
 #include "cutting/cut_domain.hpp"
+#include "cutting/fills.hpp"
 #include "cutting/linings.hpp"
 #include "cutting/t_nodes.hpp"
 #include "cutting/zone_size.hpp"
@@ -74,9 +75,10 @@ Result<Scene> build_scene(Model given, BlockOrder order, const Stepper& stepper)
   if (!cut.ok()) return cut.faults();
   scene.polygons = std::move(cut.value());
   const Solver& solver = scene.model.solver;
+  if (Faults faults = add_fills(scene.model, scene.polygons); !faults.empty()) return faults;
   divide_edges(scene.model, scene.polygons);
-  if (std::vector<Fault> faults = add_linings(scene.model, scene.polygons); !faults.empty())
-    return faults;
+  if (Faults faults = add_linings(scene.model, scene.polygons); !faults.empty()) return faults;
+  if (Faults faults = misplaced_fills(scene.model, scene.polygons); !faults.empty()) return faults;
   if (order == BlockOrder::reversed) {
     std::reverse(scene.polygons.blocks.begin(), scene.polygons.blocks.end());
     scene.polygons.reversed = true;
@@ -144,8 +146,9 @@ void place_blocks(Simulation& sim) {
   place_all(sim);
   pose.x2 = pose.x1 = pose.x;
   pose.y2 = pose.y1 = pose.y;
-  // Those that a stage installs are not there yet.
+  // Those that a stage installs or places are not there yet.
   for (std::size_t i = 0; i < nb; ++i) {
+    if (blocks.is_fill(i)) motion.state.alive[i] = 0;
     if (!blocks.is_lining(i)) continue;
     const std::string& name =
         sim.scene->model.linings[static_cast<std::size_t>(blocks.lining[i])].name;

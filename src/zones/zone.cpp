@@ -273,6 +273,22 @@ void lock_pressures(const std::array<ZoneShape, 2>& shape, std::array<ZoneState,
   for (ZoneState& s : state) s.locked = pressure(s) - mean;
 }
 
+void begin_without_stress(const std::array<ZoneShape, 2>& shape,
+                          const std::array<std::array<Vec2, 3>, 2>& x,
+                          std::array<ZoneState, 2>& state) {
+  const std::size_t many = shape[1].volume > 0.0 ? 2 : 1;
+  const double volume = shape[0].volume + shape[1].volume;
+  double mean = 0.0;
+  for (std::size_t q = 0; q < many; ++q)
+    mean += shape[q].volume / volume * swelling_of(shape[q], x[q]);
+  for (std::size_t q = 0; q < many; ++q) {
+    const double more = mean - swelling_of(shape[q], x[q]);
+    state[q] = {};
+    state[q].plastic_inverse =
+        sum_of(std::exp(-0.5 * more), inverse(deformation_of(shape[q], x[q])), 0.0, {});
+  }
+}
+
 std::array<ZoneResult, 2> evaluate_zones(const std::array<ZoneShape, 2>& shape,
                                          const ZoneMaterial& material,
                                          const std::array<std::array<Vec2, 3>, 2>& x,

@@ -59,6 +59,11 @@ void lock_pressures(const std::array<ZoneShape, 2>& shape, std::array<ZoneState,
 /// Of a zone under an initial stress (xx, yy, zz, xy, Pa).
 ZoneState zone_at_start(const ZoneMaterial& material, const std::array<double, 4>& stress);
 
+/// Of both zones of a pair, or one by itself, that are to have no stress where their nodes are.
+void begin_without_stress(const std::array<ZoneShape, 2>& shape,
+                          const std::array<std::array<Vec2, 3>, 2>& x,
+                          std::array<ZoneState, 2>& state);
+
 /// How a zone yields.
 enum class Yielding : std::uint8_t { nowhere, in_shear, in_tension, along_foliation };
 

@@ -368,7 +368,7 @@ std::array<double, 4> stress_at(const Model& model, const Material& material,
 void begin_under_stress(const ZoneModel& zones, const Model& model, const BlockSet& b, Zones& all) {
   const StressField field(model, b.origin);
   for (std::size_t i = 0; i < b.size(); ++i) {
-    if (b.is_lining(i)) continue;
+    if (b.is_added(i)) continue;
     const Vec2 centre{b.centroid_x[i], b.centroid_y[i]};
     for (std::uint32_t z = b.meshes.zone_begin[i]; z < b.meshes.zone_begin[i + 1]; ++z) {
       const auto material = static_cast<std::size_t>(b.material[i]);
@@ -471,6 +471,35 @@ void begin_lining(const ZoneModel& model, const BlockSet& b, const State& s, std
     for (const std::uint32_t z : model.pair[p]) zones.force[z] = {};
     zones.stored[p] = zones.stored_between[p] = 0.0;
   }
+}
+
+bool begin_fill(const ZoneModel& model, const BlockSet& b, const State& s, std::size_t i,
+                Zones& zones) {
+  place_nodes(b, s.position, zones.place, i, i + 1);
+  place_nodes(b, s.velocity, zones.rate, i, i + 1);
+  for (std::uint32_t p = model.pair_begin[i]; p < model.pair_begin[i + 1]; ++p) {
+    std::array<ZoneShape, 2> shape{};
+    std::array<std::array<Vec2, corners_of_zone>, 2> x{};
+    std::array<ZoneState, 2> state;
+    for (std::size_t q = 0; q < 2; ++q) {
+      const std::uint32_t z = model.pair[p][q];
+      if (z == no_partner) continue;
+      shape[q] = model.shape[z];
+      x[q] = at_corners(b.meshes, zones.place, z);
+      if (!(cross(x[q][1] - x[q][0], x[q][2] - x[q][0]) > 0.0)) return false;
+    }
+    begin_without_stress(shape, x, state);
+    for (std::size_t q = 0; q < 2; ++q) {
+      const std::uint32_t z = model.pair[p][q];
+      if (z == no_partner) continue;
+      zones.state[z] = state[q];
+      zones.force[z] = {};
+      zones.stress[z] = {};
+      zones.yielding[z] = 0;
+    }
+    zones.stored[p] = zones.stored_between[p] = 0.0;
+  }
+  return true;
 }
 
 void evaluate_zones(const ZoneModel& model, const BlockSet& b, const State& s,

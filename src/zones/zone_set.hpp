@@ -89,6 +89,11 @@ Zones zones_at_start(const ZoneModel& zones, const Model& model, const BlockSet&
 void begin_lining(const ZoneModel& model, const BlockSet& blocks, const State& state, std::size_t i,
                   Zones& zones);
 
+/// Begins the zones of block i, of fill, without stress where they are. False: one of them is
+/// turned over there.
+bool begin_fill(const ZoneModel& model, const BlockSet& blocks, const State& state, std::size_t i,
+                Zones& zones);
+
 /// Where the corners of the piece that pair p is are, m.
 BeamCorners corners_of_piece(const BlockSet& blocks, const ZoneModel& model, const State& state,
                              std::size_t p);

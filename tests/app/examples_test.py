@@ -158,6 +158,43 @@ class Examples(Program):
         self.assertGreater(max(loads) / 6, 20e6)    # N/m2
         self.assertLess(loads[-1], 0.85 * max(loads))
 
+    def test_paste_carries_its_weight(self):
+        _, folder = self.ran("stopes")
+        stages = self.rows(folder / "stages.csv")
+        history = self.rows(folder / "history.csv")
+
+        def stress(stage):  # mean vertical stress of paste 1 at the end of a stage, Pa
+            end = float(stages[stage]["end"])
+            return [float(row["paste 1.mean_syy"]) for row in history if float(row["time"]) <= end + 1e-9][-1]
+        self.assertTrue(all(stage["reached"] == "1" for stage in stages))
+        self.assertLess(-stress(2), 15 * 2000 * 9.81)
+        self.assertGreater(-stress(2), 0.3 * 15 * 2000 * 9.81)
+
+    def test_crest_settles_least(self):
+        _, folder = self.ran("dam-lifts")
+        lake = float(self.rows(folder / "stages.csv")[5]["end"])
+        before = [row for row in self.rows(folder / "history.csv") if float(row["time"]) <= lake + 1e-9][-1]
+        self.assertLess(float(before["half-way.uy"]), 2.0 * float(before["crest.uy"]))
+        self.assertLess(float(before["crest.uy"]), 0.0)
+
+    def test_drains_take_the_uplift(self):
+        _, folder = self.ran("dam-seepage")
+        self.assertTrue(all(stage["reached"] == "1" for stage in self.rows(folder / "stages.csv")))
+
+        def uplift(stage):  # N, of the base of the dam at the end of a stage
+            rows = self.rows(folder / f"joints_{stage}.csv")
+            return sum(0.5 * (float(r["water_pressure_a"]) + float(r["water_pressure_b"])) * float(r["length"])
+                       for r in rows if r["joint"] == "base")
+        drained, clogged = uplift(3), uplift(4)
+        self.assertLess(drained, 0.75 * clogged)
+        # Linear from reservoir to tailwater, if the rock below conducted nothing.
+        self.assertAlmostEqual(clogged / (9810 * 25 * 0.5 * (28 + 2)), 1.0, delta=0.25)
+        flows = {}
+        for row in self.rows(folder / "flow.csv"):
+            flows.setdefault(row["time"], []).append(float(row["inflow"]))
+        for inflow in flows.values():
+            self.assertLess(abs(sum(inflow)), 1e-9 * max(map(abs, inflow), default=0) + 1e-15)
+
     def test_disc_splits(self):
         # Grains of 4.5 in place of 2.7 mm.
         _, folder = self.ran("brazilian-disc", "--set", "voronoi.size=4.5 mm")

@@ -178,6 +178,40 @@ TEST(BadModel, GroundMotions) {
   }
 }
 
+TEST(BadModel, Fills) {
+  const std::string paste = "[[fill]]\nname = \"paste\"\nopening = \"hole\"\n",
+                    pile = "[[fill]]\nname = \"pile\"\npolygon = [[0, 0], [1, 0], [1, 1]]\n";
+  const std::string only = "[[stage]]\nduration = 0.1\n", stage = "[[stage]]\nduration = 0.05\n",
+                    half = "[[stage]]\nduration = 0.025\n";
+  const std::string fill = "fill = [\"paste\"]\n", place = stage + fill,
+                    dig = "excavate = [\"hole\"]\n";
+  for (const Bad& bad : {
+           Bad{"[[fill]]\nopening = \"hole\"\n", 42, "fill.0.name", "is missing"},
+           Bad{"[[fill]]\nname = \"paste\"\n" + only + fill, 42, "fill.paste", "opening"},
+           Bad{"[[fill]]\nname = \"paste\"\nopening = \"hol\"\n" + only + fill, 44,
+               "fill.paste.opening", "did you mean \"hole\""},
+           Bad{"[[fill]]\nname = \"hole\"\nopening = \"hole\"\n" + only + "fill = [\"hole\"]\n", 43,
+               "fill.hole.name", "is the name of an opening, too"},
+           Bad{paste, 42, "fill.paste", "no stage places it"},
+           Bad{paste + paste + only + fill, 46, "fill.paste.name", "is the name of element 0"},
+           Bad{paste + "lift = 0\n" + only + fill, 45, "fill.paste.lift", "out of range"},
+           Bad{paste + place + stage + "fill = [\"past\"]\n", 50, "stage.1.fill[0]",
+               "did you mean \"paste\""},
+           Bad{paste + place + place, 50, "stage.1.fill[0]", "has been placed before"},
+           Bad{paste + place + stage + dig, 47, "stage.0.fill[0]",
+               "which has not been excavated yet"},
+           Bad{pile + stage + "excavate = [\"pile\"]\n" + stage + "fill = [\"pile\"]\n", 47,
+               "stage.0.excavate[0]", "has not been placed yet"},
+           Bad{pile + stage + "fill = [\"pile\"]\n" + half + "excavate = [\"pile\"]\n" + half +
+                   "excavate = [\"pile\"]\n",
+               53, "stage.2.excavate[0]", "has been excavated before"},
+           Bad{pile + only + "fill = [\"pile\"]\nrelax = { pile = 0.5 }\n", 48,
+               "stage.0.relax.pile", "has not been excavated yet"},
+       }) {
+    expect_fault(bad);
+  }
+}
+
 TEST(BadModel, Linings) {
   const std::string at = "[[lining]]\nopening = \"hole\"\n", thick = at + "thickness = 0.2\n";
   const std::string first = "[[lining]]\nname = \"a\"\nopening = \"hole\"\nthickness = 0.2\n";
@@ -370,7 +404,8 @@ TEST(BadModel, Stages) {
            Bad{stage + "otherwise = \"stop\"\n", 44, "stage.0.otherwise",
                "belongs to a stage with until"},
            Bad{stage + "detached = 3\n", 44, "stage.0.detached", "expects one of"},
-           Bad{stage + "excavate = [\"cave\"]\n", 44, "stage.0.excavate[0]", "names no opening"},
+           Bad{stage + "excavate = [\"cave\"]\n", 44, "stage.0.excavate[0]",
+               "names no opening or fill"},
            Bad{stage + "relax = { cave = 0.5 }\n", 44, "stage.0.relax.cave", "names no opening"},
            Bad{stage + "excavate = [\"hole\"]\nrelax = { hole = 0.6 }\n" + next +
                    "relax = { hole = 0.4 }\n",

@@ -305,6 +305,16 @@ interface = "rough"
 along = [[0, 0], [5, 0], [5, "50 cm"]]
 material = "rock"
 thickness = 0.1
+[[fill]]
+name = "paste"
+opening = "cavern"
+lift = "2 m"
+material = "soft clay"
+joint = "rough"
+[[fill]]
+name = "bund"
+polygon = [[0, 0], [5, 0], [5, "50 cm"]]
+material = "rock"
 [[monitor]]
 name = "P1"
 point = [15, 9]
@@ -329,6 +339,7 @@ duration = 60.0
 excavate = ["cavern"]
 relax = { cavern = 0.6 }
 install = ["round", "shell", "second"]
+fill = ["paste", "bund"]
 change = [{ joints = "rough", to = "weak", region = [[11, 1], [12, 1], [12, 2]], around = "cavern", distance = "2 m" }]
 activate = ["axle", "wet"]
 masses = "as given"

@@ -285,6 +285,17 @@ void expect_every_lining_key(const Model& m) {
   EXPECT_EQ(m.linings[2].along, (std::vector<Vec2>{{0, 0}, {5, 0}, {5, 0.5}}));
 }
 
+void expect_every_fill_key(const Model& m) {
+  ASSERT_EQ(m.fills.size(), 2U);
+  EXPECT_EQ(m.fills[0].name, "paste");
+  EXPECT_EQ(m.fills[0].opening, "cavern");
+  EXPECT_EQ(m.fills[0].lift, 2.0);
+  EXPECT_EQ(m.materials[static_cast<std::size_t>(m.fills[0].material)].name, "soft clay");
+  EXPECT_EQ(m.joints[static_cast<std::size_t>(m.fills[0].joint)].name, "rough");
+  EXPECT_EQ(m.fills[1].polygon, (Ring{{0, 0}, {5, 0}, {5, 0.5}}));
+  EXPECT_EQ(m.stages[1].fill, (std::vector<std::string>{"paste", "bund"}));
+}
+
 void expect_every_bolt_key(const Model& m) {
   ASSERT_EQ(m.bolts.size(), 1U);
   const Bolt& bolt = m.bolts[0];
@@ -424,6 +435,7 @@ void expect_every_run_key(const Model& m) {
   expect_every_boundary_key(m);
   expect_every_bolt_key(m);
   expect_every_lining_key(m);
+  expect_every_fill_key(m);
   expect_every_load_key(m);
   expect_every_stage_key(m);
   expect_every_solver_key(m);

@@ -65,6 +65,8 @@ TEST(WriteModel, ImplicitMethodComesBack) {
   text.erase(text.find("restitution = 0.4\n"), 18);
   const std::string install = "install = [\"round\", \"shell\", \"second\"]\n";
   text.erase(text.find(install), install.size());
+  const std::string fill = "fill = [\"paste\", \"bund\"]\n";
+  text.erase(text.find(fill), fill.size());
   const std::size_t change = text.find("change = ");
   text.erase(change, text.find('\n', change) + 1 - change);
   const std::size_t push = text.find("[[stage]]\nname = \"push\"");

@@ -280,6 +280,37 @@ TEST(StageResume, ResumesToTheSameBitsWithZones) {
   expect_resumed(model);
 }
 
+/// Fill in lifts, placed in the stage before the last and excavated in that.
+TEST(StageResume, ResumesToTheSameBitsWithFill) {
+  std::string model = everything;
+  const auto add = [&](const std::string& after, const std::string& text) {
+    model.insert(model.find(after) + after.size(), text);
+  };
+  add("cohesion = 1e3\n", "tensile_strength = 1e3\n");
+  add("name = \"dig\"\n", "fill = [\"paste\"]\n");
+  add("duration = 0.05\n", "excavate = [\"paste\"]\n");
+  const std::string part = "relax = { hole = 1.0 }";
+  model.replace(model.find(part), part.size(), "relax = { hole = 1.0, paste = 0.7 }");
+  for (std::size_t at = 0; (at = model.find("duration = 2.0\n", at)) != std::string::npos;)
+    model.replace(at, 14, "duration = 9.0");
+  expect_resumed(
+      "[[fill]]\nname = \"paste\"\nopening = \"hole\"\nlift = 0.8\njoint = \"j\"\n"
+      "material = \"rock\"\n[zones]\nsize = 1.5\n" +
+      model);
+}
+
+/// Water that flows from one side to the hole, and in the last stage from a table.
+TEST(StageResume, ResumesToTheSameBitsWithFlow) {
+  std::string model = everything;
+  const auto add = [&](const std::string& after, const std::string& text) {
+    model.insert(model.find(after) + after.size(), text);
+  };
+  add("cohesion = 1e3\n", "aperture = 2e-4\n");
+  add("kn = 2e8\n", "aperture = 3e-4\n");
+  add("name = \"wet\"\n", "sides = [\"right\"]\n");
+  expect_resumed("[flow]\n[[water]]\nname = \"deep\"\nlevel = 4\nsides = [\"left\"]\n" + model);
+}
+
 /// Joints with dashpots of their own.
 TEST(StageResume, ResumesToTheSameBitsWithRestitution) {
   for (const char* restitution : {"restitution = \"housner\"\n", "restitution = 0.3\n"}) {

@@ -399,6 +399,12 @@ ROWS = (
     Row(85, "A lining that comes later",
         "The same under 1 MPa all round, lined when 0.6 of the wall forces have been released.",
         "0.4 of the thrust of a lining from the beginning."),
+    Row(86, "A column in lifts",
+        "A column of 10 m of concrete of 1 GPa is built in ten lifts, each in equilibrium before the next one, and at once.",
+        "Each lift settles by its own weight and by what comes after it, with the joints below it; the top of the last one least."),
+    Row(87, "Fill between walls that close",
+        "Two walls close by 5 mm, fill of 10 m length is placed between them, and they close by another 2 mm.",
+        "The stress of 2 mm in fill, joints, walls and springs in a row."),
     Row(92, "Uplift under a dam",
         "A dam 20 m wide on one joint has 15 m of water before it and 3 m behind it, without drains and with drain holes 4 m behind its"
         " heel.",

@@ -75,6 +75,9 @@ void complete_material_references(const Value& root, Reading& reading) {
   for (std::size_t i = 0; i < model.linings.size(); ++i) {
     complete_one(element(root, "lining", i), model.linings[i]);
   }
+  for (std::size_t i = 0; i < model.fills.size(); ++i) {
+    complete_one(element(root, "fill", i), model.fills[i]);
+  }
   for (std::size_t i = 0; i < model.walls.size(); ++i) {
     complete_one(element(root, "brick_wall", i), model.walls[i]);
   }
@@ -114,6 +117,7 @@ BlockCount count_blocks(const Model& model) {
     if (!model.domain) count.add(2.0, import.joint, import.where);
   }
   for (const Lining& lining : model.linings) count.add(1.0, lining.interface, lining.where);
+  for (const Fill& fill : model.fills) count.add(1.0, fill.joint, fill.where);
   if (!model.domain) return count;
   const bool is_named = model.domain->joint != none;
   const std::size_t before = count.unnamed.size();
@@ -375,6 +379,7 @@ void complete(const Value& root, Reading& reading) {
   check_names(root, "bolt", model.bolts, reading);
   check_names(root, "bolt_pattern", model.bolt_patterns, reading);
   check_names(root, "lining", model.linings, reading);
+  check_names(root, "fill", model.fills, reading);
   check_names(root, "convergence", model.convergences, reading);
   check_names(root, "measurement", model.measurements, reading);
   complete_boundaries(root, reading);
@@ -383,6 +388,7 @@ void complete(const Value& root, Reading& reading) {
   complete_shakings(root, reading);
   complete_bolts(root, reading);
   complete_linings(root, reading);
+  complete_fills(root, reading);
   complete_geometry(root, reading);
   complete_loads(root, reading);
   complete_flow(root, reading);

@@ -53,6 +53,9 @@ void complete_bolts(const Value& root, Reading& reading);
 /// As complete(), for [[lining]]: where it is and its section; methods that have none.
 void complete_linings(const Value& root, Reading& reading);
 
+/// As complete(), for [[fill]]: where it is; what it is not available with; that a stage places it.
+void complete_fills(const Value& root, Reading& reading);
+
 /// As complete(), for [joints.NAME]: the keys that each type needs and those that it does not have;
 /// residual strength.
 void complete_joints(const Value& root, Reading& reading);

@@ -76,38 +76,47 @@ Opening* opening_called(Model& model, const std::string& name) {
   return found == model.openings.end() ? nullptr : &*found;
 }
 
-/// Excavation and release of wall forces in a stage.
+/// Excavation and release of wall forces in a stage. let_go: by what has been excavated so far;
+/// placed: fills of earlier stages.
 void complete_excavation(const Value* own, Stage& stage, std::map<std::string, double>& let_go,
-                         Reading& reading) {
+                         const std::set<std::string>& placed, Reading& reading) {
   Model& model = reading.model;
-  const std::vector<std::string_view> known = names_in(model.openings);
+  std::vector<std::string_view> known = names_in(model.openings);
+  for (const std::string_view name : names_in(model.fills)) known.push_back(name);
+  const auto is_known = [&](const std::string& name) {
+    return std::find(known.begin(), known.end(), name) != known.end();
+  };
   const auto unknown = [&](const Value& value, const std::string& path, const std::string& name) {
-    names_nothing(reading, value, path, name, "opening", known);
+    names_nothing(reading, value, path, name, "opening or fill", known);
   };
   for (std::size_t q = 0; q < stage.excavate.size(); ++q) {
     const Value& list = *find(own, "excavate");
     const std::string path = fmt::format("{}.excavate[{}]", stage.where.key, q);
-    Opening* const opening = opening_called(model, stage.excavate[q]);
-    if (opening == nullptr) {
-      unknown(list, path, stage.excavate[q]);
-    } else if (opening->staged) {
-      add_fault(reading, list.place, path, '"' + opening->name + "\" has been excavated before",
+    const std::string& name = stage.excavate[q];
+    Opening* const opening = opening_called(model, name);
+    if (!is_known(name)) {
+      unknown(list, path, name);
+    } else if (let_go.contains(name)) {
+      add_fault(reading, list.place, path, '"' + name + "\" has been excavated before",
                 "excavate each opening once");
+    } else if (opening == nullptr && !placed.contains(name)) {
+      add_fault(reading, list.place, path, '"' + name + "\" has not been placed yet",
+                "excavate fill in a stage after that which places it");
     } else {
-      opening->staged = true;
-      const auto says = [&](const auto& part) { return part.first == opening->name; };
+      const auto says = [&](const auto& part) { return part.first == name; };
       const bool by_part = std::any_of(stage.relax.begin(), stage.relax.end(), says);
-      let_go[opening->name] = by_part ? 0.0 : 1.0;
+      let_go[name] = by_part ? 0.0 : 1.0;
+      if (opening == nullptr) continue;
+      opening->staged = true;
       if (opening->joint == none) opening->joint = glued_law(reading);
     }
   }
   for (const auto& [name, part] : stage.relax) {
     const Value& table = *find(own, "relax");
     const std::string path = stage.where.key + ".relax." + name;
-    const Opening* const opening = opening_called(model, name);
-    if (opening == nullptr) {
+    if (!is_known(name)) {
       unknown(table, path, name);
-    } else if (!opening->staged) {
+    } else if (!let_go.contains(name)) {
       add_fault(reading, table.place, path, '"' + name + "\" has not been excavated yet",
                 "name it in excavate of this stage or one before");
     } else if (part < let_go[name]) {
@@ -211,23 +220,24 @@ void complete_changes(const Value* own, Stage& stage, Reading& reading) {
   }
 }
 
-/// Whether the rock is there on which a lining lies.
+/// The opening of this name where a stage excavates it that has yet to come.
+const Opening* unexcavated(const Model& model, const std::string& name,
+                           const std::map<std::string, double>& excavated) {
+  for (const Opening& o : model.openings) {
+    if (!o.name.empty() && o.name == name && !excavated.contains(name) && excavated_in(model, name))
+      return &o;
+  }
+  return nullptr;
+}
+
+/// The same of the opening on whose wall a lining lies.
 const Opening* unexcavated(const Model& model, const Lining& lining,
                            const std::map<std::string, double>& excavated) {
   for (const Lining& below : model.linings) {
     if (&below == &lining) break;
     if (!lining.on.empty() && below.name == lining.on) return unexcavated(model, below, excavated);
   }
-  const auto excavates = [&](const Stage& stage) {
-    return std::find(stage.excavate.begin(), stage.excavate.end(), lining.opening) !=
-           stage.excavate.end();
-  };
-  for (const Opening& o : model.openings) {
-    if (!o.name.empty() && o.name == lining.opening && !excavated.contains(o.name) &&
-        std::any_of(model.stages.begin(), model.stages.end(), excavates))
-      return &o;
-  }
-  return nullptr;
+  return unexcavated(model, lining.opening, excavated);
 }
 
 /// A lining comes with the stage that excavates its opening, or later.
@@ -279,6 +289,33 @@ void check_install(const Value* own, const Stage& stage, std::set<std::string>& 
                 '"' + name + "\" lies on \"" + below + "\", which is not there yet",
                 "install that one before it, or together with it and before it in the list");
     }
+  }
+}
+
+/// Fills that a stage places, each once, and those in openings after these.
+void check_fill(const Value* own, const Stage& stage, std::set<std::string>& placed,
+                const std::map<std::string, double>& excavated, Reading& reading) {
+  const Model& model = reading.model;
+  for (std::size_t q = 0; q < stage.fill.size(); ++q) {
+    const std::string& name = stage.fill[q];
+    const Value& list = *find(own, "fill");
+    const std::string path = fmt::format("{}.fill[{}]", stage.where.key, q);
+    const std::vector<Index> rows = fills_called(model, {name});
+    if (rows.empty()) {
+      names_nothing(reading, list, path, name, "fill", names_in(model.fills));
+      continue;
+    }
+    if (!placed.insert(name).second) {
+      add_fault(reading, list.place, path, '"' + name + "\" has been placed before",
+                "place each fill once");
+      continue;
+    }
+    const Opening* const opening =
+        unexcavated(model, model.fills[static_cast<std::size_t>(rows.front())].opening, excavated);
+    if (opening == nullptr) continue;
+    add_fault(reading, list.place, path,
+              '"' + name + "\" lies in \"" + opening->name + "\", which has not been excavated yet",
+              "place it in the stage that excavates the opening, or later");
   }
 }
 
@@ -446,7 +483,7 @@ void complete_stages(const Value& root, Reading& reading) {
                             names_in(model.boundaries), names_in(model.shakings)}) {
     known.insert(known.end(), names.begin(), names.end());
   }
-  std::set<std::string> installed, acting;
+  std::set<std::string> installed, placed, acting;
   std::map<std::string, double> let_go;
   for (const std::string_view name : known) {
     const auto& first = model.stages.front().activate;
@@ -467,7 +504,8 @@ void complete_stages(const Value& root, Reading& reading) {
     complete_stage_damping(own, solver, stage);
     check_ramp_damping(own, stage, reading);
     complete_masses(own, solver, stage, reading);
-    complete_excavation(own, stage, let_go, reading);
+    complete_excavation(own, stage, let_go, placed, reading);
+    check_fill(own, stage, placed, let_go, reading);
     check_install(own, stage, installed, let_go, reading);
     complete_changes(own, stage, reading);
     check_switches(own, stage, acting, known, reading);

@@ -262,6 +262,15 @@ constexpr std::array lining_keys{
     Key{"interface", at<&Lining::interface>, joint, otherwise("that of the wall, or contact.joint"), "Law of the faces between the lining and what it touches: stiffness, friction, adhesion (cohesion and tensile strength)."},
 };
 
+constexpr std::array fill_keys{
+    Key{"name", at<&Fill::name>, naming, required, "What stages, --set and tables call the fill."},
+    Key{"opening", at<&Fill::opening>, naming, otherwise("none; either this or polygon"), "Name of the opening whose room it takes, as the walls have deformed by then."},
+    Key{"polygon", at<&Fill::polygon>, polygon, otherwise("none; either this or opening"), "Its corners as drawn. Those on blocks that are there move with them until it is placed."},
+    Key{"lift", at<&Fill::lift>, number(D::length, above(0)), otherwise("none: it is one block"), "Height of the layers that it consists of, at right angles to gravity from its lowest corner; each is a block."},
+    Key{"material", at<&Fill::material>, material, otherwise(if_one), "Material of the fill, whose zones may yield."},
+    Key{"joint", at<&Fill::joint>, joint, otherwise("that of what it touches, or contact.joint"), "Law of the faces of its blocks, between themselves and to what they touch."},
+};
+
 constexpr std::array monitor_keys{
     Key{"name", at<&Monitor::name>, naming, required, "What the columns of history.csv are called."},
     Key{"point", at<&Monitor::point>, point, required, "A material point of the block in which it lies at the start."},
@@ -317,9 +326,10 @@ constexpr std::array stage_keys{
     Key{"until", at<&Stage::until>, choice, otherwise("`\"time\"`; `\"equilibrium\"` with a ramp"), "Whether it ends at its duration (time) or as soon as the model is in equilibrium (equilibrium); with a ramp, whose end is to be reached in equilibrium (equilibrium) or before which the model is to fail (collapse)."},
     Key{"ratio", at<&Stage::ratio>, number(D::plain, above_to(0, 1)), initial, "Equilibrium: mean resultant force of the blocks over the mean normal force at the ends of the contacts."},
     Key{"duration", at<&Stage::duration>, number(D::time, above(0)), otherwise("required until \"time\"; 10 s until \"equilibrium\", or the time in which waves cross the model 200 times, 1000 s with a ramp or a boundary of type \"displacement\""), "Length of the stage; until equilibrium the longest it may take, with a ramp for each of its values on average."},
-    Key{"excavate", at<&Stage::excavate>, name_list, otherwise("none"), "Openings that are excavated at the start of the stage."},
+    Key{"excavate", at<&Stage::excavate>, name_list, otherwise("none"), "Openings, and fills of earlier stages, that are excavated at the start of the stage."},
     Key{"relax", at<&Stage::relax>, numbers_of_names(from_to(0, 1)), otherwise("all, when an opening is excavated"), "Part of the wall forces of the excavated rock that has been released by then, all stages together, by opening; the rest remains on the walls, like the support of a nearby face."},
     Key{"install", at<&Stage::install>, name_list, otherwise("bolts and linings that no stage names are there from the start"), "Bolts, patterns of bolts and linings installed at the start of the stage, in the rock as deformed by then."},
+    Key{"fill", at<&Stage::fill>, name_list, otherwise("none"), "Fills that are placed at the start of the stage, without stress, between the blocks as they are by then. Their weight is applied gradually where the stage lasts until equilibrium."},
     Key{"change", at<&Stage::change>, tables, otherwise("none"), "Joints and rock that have other properties from the start of the stage on, one change after the other."},
     Key{"activate", at<&Stage::activate>, name_list, otherwise("what no stage names acts from the start"), "Loads, waters, boundaries and ground motions that act from the start of the stage on; their histories count time from then."},
     Key{"deactivate", at<&Stage::deactivate>, name_list, otherwise("none"), "Those that no longer act. A boundary that takes over from another carries the forces of that one."},
@@ -406,6 +416,7 @@ constexpr std::array all_sections{
     section<&Model::bolts>("bolt", Shape::list, bolt_keys, "A rock bolt."),
     section<&Model::bolt_patterns>("bolt_pattern", Shape::list, bolt_pattern_keys, "Bolts round an opening."),
     section<&Model::linings>("lining", Shape::list, lining_keys, "Shotcrete, concrete or steel sets along a wall."),
+    section<&Model::fills>("fill", Shape::list, fill_keys, "Blocks that a stage places: paste fill, rock fill, lifts of a dam, courses of masonry."),
     section<&Model::monitors>("monitor", Shape::list, monitor_keys, "A point whose history is written."),
     section<&Model::convergences>("convergence", Shape::list, convergence_keys, "Two points whose convergence is written."),
     section<&Model::measurements>("measurement", Shape::list, measurement_keys, "A region whose mean stress and strain are written."),

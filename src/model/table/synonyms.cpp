@@ -51,6 +51,8 @@ constexpr std::array other_words{
     Synonym{"steel_set", "lining", "with area, inertia and spacing"},
     Synonym{"rib", "lining", "with area, inertia and spacing"},
     Synonym{"shotcrete", "lining", ""},
+    Synonym{"backfill", "fill", ""},
+    Synonym{"paste", "fill", ""},
     // Stress, loads and water.
     Synonym{"insitu", "initial_stress", ""},
     Synonym{"in_situ", "initial_stress", ""},
