@@ -55,23 +55,18 @@ double factor_of(const TimeHistory& history, const ActiveInterval& interval,
   return part * slow.at(time, gradual) * history.at(time - interval.since, 1.0);
 }
 
-void add_waters(LoadsNow& now, const Model& model, const Loads& loads, double time,
-                const GradualChange& gradual) {
-  for (std::size_t q = 0; q < model.waters.size(); ++q) {
-    const Water& water = model.waters[q];
-    const ActiveInterval& interval = loads.intervals.waters[q];
-    const double part = interval.part(time, gradual);
-    now.rise.push_back(part > 0.0 ? water.rise.at(time - interval.since, 0.0) : 0.0);
-    now.weight.push_back(part * loads.slow.waters[q].at(time, gradual) * water.unit_weight *
-                         model.thickness);
-  }
-}
-
 }  // namespace
 
 LoadsNow waters_at(const Model& model, const Loads& loads, double time) {
   LoadsNow now;
-  add_waters(now, model, loads, time, {});
+  for (std::size_t q = 0; q < model.waters.size(); ++q) {
+    const Water& water = model.waters[q];
+    const ActiveInterval& interval = loads.intervals.waters[q];
+    const bool acts = interval.acts() && time >= interval.since;
+    now.rise.push_back(acts ? water.rise.at(time - interval.since, 0.0) : 0.0);
+    now.weight.push_back(acts ? loads.slow.waters[q].value * water.unit_weight * model.thickness
+                              : 0.0);
+  }
   return now;
 }
 
@@ -146,7 +141,14 @@ LoadsNow loads_at(const Model& model, const Loads& loads, double time) {
     if (shaking.apply != ShakingKind::inertia || part == 0.0) continue;
     now.frame += part * acceleration_at(shaking, time - interval.since);
   }
-  add_waters(now, model, loads, time, gradual);
+  for (std::size_t q = 0; q < model.waters.size(); ++q) {
+    const Water& water = model.waters[q];
+    const ActiveInterval& interval = loads.intervals.waters[q];
+    const double part = interval.part(time, gradual);
+    now.rise.push_back(part > 0.0 ? water.rise.at(time - interval.since, 0.0) : 0.0);
+    now.weight.push_back(part * loads.slow.waters[q].at(time, gradual) * water.unit_weight *
+                         model.thickness);
+  }
   if (loads.in_joints > 0.0) {
     const double part = gradual.at ? gradual.part : 1.0;
     now.rise.insert(now.rise.end(), {0.0, 0.0});

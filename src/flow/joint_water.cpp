@@ -14,10 +14,7 @@ class Flow {
   Flow(JointWater& joints, const FlowScene& scene, const LoadsNow& now)
       : joints_(joints), s_(scene), now_(now), thickness_(scene.model.thickness) {
     gamma_ = scene.model.waters.front().unit_weight;
-    std::vector<std::uint8_t> acts;
-    for (std::size_t q = 0; q < scene.model.waters.size(); ++q)
-      acts.push_back(now.weight[q] > 0.0 ? 1 : 0);
-    net_ = flow_network(scene, joints.ground, acts);
+    net_ = flow_network(scene, joints.ground);
   }
 
   void solve() {
@@ -29,7 +26,9 @@ class Flow {
       water_[n].pressure = std::max(water_[n].pressure, joints_.pressure[v]);
       water_[n].filled = std::max(water_[n].filled, joints_.filled[v]);
     }
-    joints_.found = solve_seepage(net_, given_, gamma_, nullptr, water_);
+    if (!solve_seepage(net_, given_, gamma_, water_)) ++joints_.not_found;
+    joints_.heads.assign(s_.model.waters.size(), 0);
+    for (const HeadNode& head : net_.heads) ++joints_.heads[static_cast<std::size_t>(head.water)];
     for (Id v = 0; v < net_.node_of.size(); ++v) {
       const Id n = net_.node_of[v];
       joints_.pressure[v] = n == no_id ? 0.0 : water_[n].pressure;
@@ -70,14 +69,19 @@ class Flow {
     std::vector<WetEdge> wet = joints_.before;
     const auto flow_row = static_cast<Index>(s_.model.waters.size());
     for (const CoveredPart& part : net_.covered) {
-      if (part.pipe == no_id || !is_free(s_.blocks, s_.state, s_.blocks.vertex_block[part.edge]))
-        continue;
+      if (!is_free(s_.blocks, s_.state, s_.blocks.vertex_block[part.edge])) continue;
       const FlowPipe& pipe = net_.pipes[part.pipe];
       PipeLevels levels = levels_of(net_, pipe, gamma_, water_);
       if (part.from_node != pipe.from) std::swap(levels.from, levels.to);
       wet.push_back({part.edge, part.from, part.to, levels.from, levels.to, flow_row});
     }
     for (const OpenPart& open : net_.open) {
+      if (open.void_node != no_id) {
+        const double level =
+            net_.nodes[open.void_node].place.y + water_[open.void_node].pressure / gamma_;
+        wet.push_back({open.edge, open.from, open.to, level, level, flow_row});
+      }
+      if (!open.wet) continue;
       for (const WetEdge& e : outside(open.edge)) {
         const double from = std::max(e.from, open.from), to = std::min(e.to, open.to);
         if (!(to > from)) continue;
@@ -90,12 +94,13 @@ class Flow {
   }
 
  private:
-  /// The head of a line in the rock, else the highest pressure of what lies open beside the node.
+  /// The highest head of lines in the rock and of what lies open beside a node.
   void give_conditions() {
     given_.assign(net_.nodes.size(), {});
     for (const Outcrop& outcrop : net_.outcrops) {
       NodeCondition& given = given_[outcrop.node];
       if (given.kind == Kind::inside) given.kind = Kind::air;
+      if (!outcrop.wet) continue;
       for (const WetEdge& e : outside(outcrop.edge)) {
         constexpr double rounding = 1e-9;
         if (outcrop.at < e.from - rounding || outcrop.at > e.to + rounding) continue;
@@ -104,12 +109,12 @@ class Flow {
              net_.nodes[outcrop.node]);
       }
     }
-    for (std::size_t n = 0; n < given_.size(); ++n) {
-      const FlowNode& node = net_.nodes[n];
-      if (node.water == none) continue;
-      given_[n] = {Kind::air, 0.0, none};
-      const Water& water = s_.model.waters[static_cast<std::size_t>(node.water)];
-      take(given_[n], node.water, level_of(water, s_.blocks.origin, node.place.x), node);
+    for (const HeadNode& head : net_.heads) {
+      NodeCondition& given = given_[head.node];
+      if (given.kind == Kind::inside) given.kind = Kind::air;
+      const FlowNode& node = net_.nodes[head.node];
+      const Water& water = s_.model.waters[static_cast<std::size_t>(head.water)];
+      take(given, head.water, level_of(water, s_.blocks.origin, node.place.x), node);
     }
   }
 

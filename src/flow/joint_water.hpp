@@ -1,6 +1,7 @@
 // The water in the joints of a model with [flow]: its state, and what is reported of it.
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "flow/network.hpp"
@@ -21,7 +22,8 @@ struct JointWater {
   std::vector<double> pressure, filled;  ///< [nv] NodeWater of the node of each corner
   std::vector<FlowRow> rows;             ///< of the faces with water, by edge and facing
   std::vector<double> inflow;   ///< [rows of Model::waters, and the open air] m2/s into the joints
-  bool found = true;            ///< whether the free surface has been found
+  std::uint64_t not_found = 0;  ///< times that the free surface has not been found
+  std::vector<std::size_t> heads;  ///< [rows of Model::waters] nodes on their lines at present
   std::vector<WetEdge> before;  ///< water in joints before what changes gradually began to change
 };
 

@@ -12,9 +12,6 @@ namespace {
 
 /// Corners nearer to each other along a face than this part of its shorter edge share a node.
 constexpr double same_node = 1e-3;
-/// A part of an edge without a face is a void between joints, a node, up to this part of the edge:
-/// where blocks have slipped past each other. What is longer lies open.
-constexpr double longest_void = 0.1;
 
 /// The overlap of a face: its ends, and the corners that bound them.
 struct Overlap {
@@ -76,6 +73,8 @@ std::optional<Overlap> overlap_of_face(const FlowScene& s, std::size_t k) {
   f.eta = {(o.ma - o.r2) * o.per_f, (o.mb - o.r2) * o.per_f};
   f.opening = {-(o.closure_at_0 + o.closure_slope * o.ma),
                -(o.closure_at_0 + o.closure_slope * o.mb)};
+  // Far sides of thin blocks do not meet.
+  if (std::min(f.opening.a, f.opening.b) < -pair.passing) return {};
   const bool e_at_a = o.r2 <= 0.0, e_at_b = o.s2 <= o.r1;
   const auto corners = [&](Id(&to)[2], Id of_e, Id of_f, bool e_bounds, double apart) {
     to[0] = e_bounds ? of_e : of_f;
@@ -100,55 +99,59 @@ struct Crossing {
   double at;
   Index water;
 };
-std::vector<Crossing> crossings(const FlowScene& s, const FlowGround& ground,
-                                const std::vector<std::uint8_t>& acts, const Overlap& f) {
+std::vector<Crossing> crossings(const FlowScene& s, const FlowGround& ground, const Overlap& f) {
   std::vector<Crossing> found;
   const Id e = s.faces.edge[f.face];
   const Vec2 p = s.blocks.vertex(e), u = s.blocks.vertex(s.faces.edge_end[f.face]) - p;
   for (const FlowGround::HeadLine& line : ground.heads) {
-    if (acts[static_cast<std::size_t>(line.water)] == 0) continue;
+    if (!s.intervals.waters[static_cast<std::size_t>(line.water)].acts()) continue;
     const Vec2 w = line.b - line.a;
     const double across = cross(u, w);
     if (std::abs(across) <= 1e-9 * norm(u) * norm(w)) continue;
     const double on_edge = cross(line.a - p, w) / across, on_line = cross(line.a - p, u) / across;
     const double at = (on_edge - f.xi.a) / (f.xi.b - f.xi.a);
-    if (on_line < 0.0 || on_line > 1.0 || at <= same_node || at >= 1.0 - same_node) continue;
+    if (on_line < 0.0 || on_line > 1.0 || at < -same_node || at > 1.0 + same_node) continue;
     found.push_back({at, line.water});
   }
   std::sort(found.begin(), found.end(), [](Crossing x, Crossing y) { return x.at < y.at; });
-  const auto same = [](Crossing x, Crossing y) { return y.at - x.at <= same_node; };
-  found.erase(std::unique(found.begin(), found.end(), same), found.end());
   return found;
 }
 
 class Builder {
  public:
-  Builder(const FlowScene& scene, const FlowGround& ground, const std::vector<std::uint8_t>& acts)
-      : s_(scene), ground_(ground), acts_(acts) {}
+  Builder(const FlowScene& scene, const FlowGround& ground, bool with_boundaries = true)
+      : s_(scene), ground_(ground), corners_(scene.blocks.vertex_count()) {
+    supported_.assign(scene.blocks.vertex_count(), 0);
+    for (std::size_t q = 0; q < ground.along.size() && with_boundaries; ++q) {
+      if (!scene.intervals.boundaries[q].acts()) continue;
+      for (const Id edge : ground.along[q]) supported_[edge] = 1;
+    }
+    find_overlaps();
+    join_corners();
+    find_gaps();
+  }
 
   FlowNetwork build() {
-    find_overlaps();
-    make_nodes();
+    trace_voids();
+    number_nodes();
     for (const Overlap& f : overlaps_) add_pipes(f);
     for (const FlowPipe& pipe : net_.pipes) {
       net_.nodes[pipe.from].conductance += pipe.conductance;
       net_.nodes[pipe.to].conductance += pipe.conductance;
     }
-    sort_by_edge(net_.covered);
-    find_open_parts();
+    add_open_parts();
     return std::move(net_);
   }
 
- private:
-  template <class Part>
-  static void sort_by_edge(std::vector<Part>& parts) {
-    std::sort(parts.begin(), parts.end(), [](const Part& x, const Part& y) {
-      return x.edge != y.edge ? x.edge < y.edge : x.from < y.from;
-    });
+  std::vector<Id> uncovered() const {
+    std::vector<Id> edges;
+    for (const Gap& gap : gaps_) edges.push_back(gap.edge);
+    return edges;
   }
 
+ private:
   /// A wall sees the nearest one alone: of two faces that cover the same part of an edge the one
-  /// that has opened less counts.
+  /// that has opened less counts, unless that is but a small part of the other.
   void find_overlaps() {
     std::vector<Overlap> all;
     for (std::size_t k = 0; k < s_.faces.size(); ++k) {
@@ -156,18 +159,19 @@ class Builder {
     }
     std::vector<std::size_t> nearest(all.size());
     std::iota(nearest.begin(), nearest.end(), std::size_t{0});
-    const auto opening = [&](std::size_t q) { return all[q].opening.a + all[q].opening.b; };
+    const auto apart = [&](std::size_t q) {
+      return std::abs(all[q].opening.a) + std::abs(all[q].opening.b);
+    };
     std::stable_sort(nearest.begin(), nearest.end(),
-                     [&](std::size_t x, std::size_t y) { return opening(x) < opening(y); });
+                     [&](std::size_t x, std::size_t y) { return apart(x) < apart(y); });
     std::vector<std::vector<Part>> taken(s_.blocks.vertex_count());
     std::vector<std::uint8_t> counts(all.size(), 0);
     for (const std::size_t q : nearest) {
       const Overlap& f = all[q];
       const Id e = s_.faces.edge[f.face], g = s_.faces.facing[f.face];
       const Part on_e{f.xi.a, f.xi.b}, on_g{1.0 - f.eta.b, 1.0 - f.eta.a};
-      if (!f.is_point && (is_taken(taken[e], on_e) || is_taken(taken[g], on_g))) continue;
-      counts[q] = 1;
-      if (f.is_point) continue;
+      counts[q] = f.is_point || !(is_taken(taken[e], on_e) || is_taken(taken[g], on_g)) ? 1 : 0;
+      if (f.is_point || counts[q] == 0) continue;
       taken[e].push_back(on_e);
       taken[g].push_back(on_g);
     }
@@ -176,39 +180,93 @@ class Builder {
     }
   }
   static bool is_taken(const std::vector<Part>& taken, Part part) {
-    return std::any_of(taken.begin(), taken.end(), [&](Part t) {
-      return std::min(t.to, part.to) - std::max(t.from, part.from) >
-             longest_void * std::min(t.to - t.from, part.to - part.from);
-    });
+    double common = 0.0;
+    for (const Part t : taken)
+      common += std::max(0.0, std::min(t.to, part.to) - std::max(t.from, part.from));
+    return common > 0.5 * (part.to - part.from);
   }
 
-  /// Corners at the ends of what a face covers of an edge.
-  struct Between {
+  void join_corners() {
+    for (const Overlap& f : overlaps_) {
+      for (const auto* end : {&f.corner_a, &f.corner_b}) {
+        corners_.use((*end)[0]);
+        if ((*end)[1] != no_id) corners_.join((*end)[0], (*end)[1]);
+      }
+      if (f.is_point) corners_.join(f.corner_a[0], f.corner_b[0]);
+    }
+  }
+
+  /// What no face covers of the edges of free blocks, between two corners, its own or those of
+  /// blocks against it.
+  struct Gap {
     Id edge;
     double from, to;
     Id from_corner, to_corner;
+    bool open = false, wet = false;
   };
-
-  void make_nodes() {
-    Nodes nodes(s_.blocks.vertex_count());
-    std::vector<Between> parts;
+  void find_gaps() {
+    struct Cover {
+      Id edge;
+      double from, to;
+      Id from_corner, to_corner;
+    };
+    std::vector<Cover> covers;
     for (const Overlap& f : overlaps_) {
-      for (const auto* end : {&f.corner_a, &f.corner_b}) {
-        nodes.use((*end)[0]);
-        if ((*end)[1] != no_id) nodes.join((*end)[0], (*end)[1]);
-      }
-      if (f.is_point) {
-        nodes.join(f.corner_a[0], f.corner_b[0]);
-        continue;
-      }
+      if (f.is_point) continue;
       const Id a = f.corner_a[0], b = f.corner_b[0];
-      parts.push_back({s_.faces.edge[f.face], f.xi.a, f.xi.b, a, b});
-      parts.push_back({s_.faces.facing[f.face], 1.0 - f.eta.b, 1.0 - f.eta.a, b, a});
+      covers.push_back({s_.faces.edge[f.face], f.xi.a, f.xi.b, a, b});
+      covers.push_back({s_.faces.facing[f.face], 1.0 - f.eta.b, 1.0 - f.eta.a, b, a});
     }
-    sort_by_edge(parts);
-    join_across_voids(parts, nodes);
+    std::sort(covers.begin(), covers.end(), [](const Cover& x, const Cover& y) {
+      return x.edge != y.edge ? x.edge < y.edge : x.from < y.from;
+    });
+    constexpr double rounding = 1e-12;
+    std::size_t c = 0;
+    for (Id v = 0; v < s_.blocks.vertex_count(); ++v) {
+      double reached = 0.0;
+      Id corner = v;
+      const bool counts =
+          is_free(s_.blocks, s_.state, s_.blocks.vertex_block[v]) && supported_[v] == 0;
+      for (; c < covers.size() && covers[c].edge == v; ++c) {
+        if (counts && covers[c].from - reached > rounding)
+          gaps_.push_back({v, reached, covers[c].from, corner, covers[c].from_corner});
+        if (covers[c].to < reached) continue;
+        reached = covers[c].to;
+        corner = covers[c].to_corner;
+      }
+      if (counts && 1.0 - reached > rounding)
+        gaps_.push_back({v, reached, 1.0, corner, s_.blocks.next[v]});
+    }
+  }
+
+  /// Gaps that meet at corners are one void. It lies open where a part of it was open as drawn, or
+  /// an opening is there; then there is water where water was drawn beside it. Else it is enclosed:
+  /// a node.
+  void trace_voids() {
+    Nodes voids(s_.blocks.vertex_count());
+    for (const Gap& gap : gaps_)
+      voids.join(corners_.root(gap.from_corner), corners_.root(gap.to_corner));
+    const auto void_of = [&](const Gap& gap) { return voids.root(corners_.root(gap.from_corner)); };
+    std::vector<std::uint8_t> open(s_.blocks.vertex_count(), 0), wet(open);
+    for (const Gap& gap : gaps_) {
+      if (ground_.open[gap.edge] == 0) continue;
+      open[void_of(gap)] = 1;
+      const auto at = std::lower_bound(ground_.outside.begin(), ground_.outside.end(), gap.edge,
+                                       [](const WetEdge& e, Id edge) { return e.edge < edge; });
+      if (at != ground_.outside.end() && at->edge == gap.edge) wet[void_of(gap)] = 1;
+    }
+    for (Gap& gap : gaps_) {
+      gap.open = open[void_of(gap)] != 0;
+      gap.wet = wet[void_of(gap)] != 0;
+    }
+    for (const Gap& gap : gaps_) {
+      if (!gap.open) corners_.join(gap.from_corner, gap.to_corner);
+    }
+  }
+
+  void number_nodes() {
     std::size_t count = 0;
-    net_.node_of = nodes.number(count);
+    net_.node_of = corners_.number(count);
     net_.nodes.resize(count);
     std::vector<double> corners(count, 0.0);
     for (Id v = 0; v < net_.node_of.size(); ++v) {
@@ -217,41 +275,23 @@ class Builder {
       net_.nodes[n].place += at(s_.pose.x, s_.pose.y, v);
       corners[n] += 1.0;
       for (const FlowGround::HeadLine& line : ground_.heads) {
-        if (acts_[static_cast<std::size_t>(line.water)] != 0 &&
+        if (s_.intervals.waters[static_cast<std::size_t>(line.water)].acts() &&
             distance_to_segment(s_.blocks.vertex(v), line.a, line.b) <= ground_.snap)
-          net_.nodes[n].water = line.water;
+          net_.heads.push_back({n, line.water});
       }
     }
     for (std::size_t n = 0; n < count; ++n)
       net_.nodes[n].place = (1.0 / corners[n]) * net_.nodes[n].place;
   }
 
-  /// What bounds a void is one node.
-  void join_across_voids(const std::vector<Between>& parts, Nodes& nodes) const {
-    for (std::size_t q = 0; q < parts.size(); ++q) {
-      const Between& part = parts[q];
-      const bool first = q == 0 || parts[q - 1].edge != part.edge;
-      const bool last = q + 1 == parts.size() || parts[q + 1].edge != part.edge;
-      if (first && part.from <= longest_void && nodes.used(part.edge))
-        nodes.join(part.edge, part.from_corner);
-      if (!first && std::abs(part.from - parts[q - 1].to) <= longest_void)
-        nodes.join(parts[q - 1].to_corner, part.from_corner);
-      const Id end = s_.blocks.next[part.edge];
-      if (last && 1.0 - part.to <= longest_void && nodes.used(end)) nodes.join(part.to_corner, end);
-    }
-  }
-
   /// The pipes of a face, and the parts of its two edges that they wet.
   void add_pipes(const Overlap& f) {
-    if (f.is_point) return;
     const std::size_t law = s_.faces.law[f.face];
+    if (f.is_point || law >= s_.model.joints.size()) return;
+    const FaceEnds aperture{aperture_of(s_.model.joints[law], f.opening.a),
+                            aperture_of(s_.model.joints[law], f.opening.b)};
+    if (aperture.a == 0.0) return;
     const Id from = net_.node_of[f.corner_a[0]], to = net_.node_of[f.corner_b[0]];
-    FaceEnds aperture;
-    if (law < s_.model.joints.size()) {
-      aperture = {aperture_of(s_.model.joints[law], f.opening.a),
-                  aperture_of(s_.model.joints[law], f.opening.b)};
-    }
-    if (aperture.a == 0.0) return cover(f, 0.0, 1.0, from, to, no_id);
     double last = 0.0;
     Id last_node = from;
     const auto add = [&](double until, Id node) {
@@ -260,75 +300,52 @@ class Builder {
                     there(last), there(until), 0.0};
       pipe.conductance = conductance_of(pipe.from_aperture, pipe.to_aperture, pipe.length,
                                         s_.model.flow->viscosity);
-      cover(f, last, until, last_node, node, static_cast<Id>(net_.pipes.size()));
+      cover(f, pipe);
       net_.pipes.push_back(pipe);
       last = until;
       last_node = node;
     };
-    for (const Crossing c : crossings(s_, ground_, acts_, f)) {
-      const Id e = s_.faces.edge[f.face], end = s_.faces.edge_end[f.face];
-      const double xi = (1.0 - c.at) * f.xi.a + c.at * f.xi.b;
-      FlowNode node;
-      node.place = (1.0 - xi) * at(s_.pose.x, s_.pose.y, e) + xi * at(s_.pose.x, s_.pose.y, end);
-      node.water = c.water;
-      net_.nodes.push_back(node);
-      add(c.at, static_cast<Id>(net_.nodes.size() - 1));
+    for (const Crossing c : crossings(s_, ground_, f)) {
+      Id node = c.at <= same_node ? from : c.at >= 1.0 - same_node ? to : last_node;
+      if (node == last_node && c.at - last > same_node && c.at < 1.0 - same_node) {
+        node = static_cast<Id>(net_.nodes.size());
+        const Id e = s_.faces.edge[f.face], end = s_.faces.edge_end[f.face];
+        const double xi = (1.0 - c.at) * f.xi.a + c.at * f.xi.b;
+        net_.nodes.push_back(
+            {(1.0 - xi) * at(s_.pose.x, s_.pose.y, e) + xi * at(s_.pose.x, s_.pose.y, end)});
+        add(c.at, node);
+      }
+      net_.heads.push_back({node, c.water});
     }
     add(1.0, to);
   }
 
-  void cover(const Overlap& f, double from, double to, Id from_node, Id to_node, Id pipe) {
+  void cover(const Overlap& f, const FlowPipe& pipe) {
     const auto between = [](FaceEnds ends, double t) { return (1.0 - t) * ends.a + t * ends.b; };
+    const Id row = static_cast<Id>(net_.pipes.size());
+    const double from = pipe.part_from, to = pipe.part_to;
     net_.covered.push_back(
-        {s_.faces.edge[f.face], between(f.xi, from), between(f.xi, to), from_node, to_node, pipe});
+        {s_.faces.edge[f.face], between(f.xi, from), between(f.xi, to), pipe.from, row});
     net_.covered.push_back({s_.faces.facing[f.face], 1.0 - between(f.eta, to),
-                            1.0 - between(f.eta, from), to_node, from_node, pipe});
+                            1.0 - between(f.eta, from), pipe.to, row});
   }
 
-  /// What no face covers of the edges of free blocks. Voids belong to what is covered beside them.
-  void find_open_parts() {
-    const BlockSet& b = s_.blocks;
-    std::size_t c = 0;
-    for (Id v = 0; v < b.vertex_count(); ++v) {
-      const std::size_t first = c;
-      while (c < net_.covered.size() && net_.covered[c].edge == v) ++c;
-      const Id i = b.vertex_block[v];
-      if (!is_free(b, s_.state, i)) continue;
-      double reached = 0.0;
-      for (std::size_t q = first; q < c; ++q) {
-        CoveredPart& part = net_.covered[q];
-        if (part.from - reached > longest_void) {
-          add_open(v, reached, part.from, q > first ? &net_.covered[q - 1] : nullptr, &part);
-        } else if (q > first) {
-          part.from = net_.covered[q - 1].to = 0.5 * (part.from + net_.covered[q - 1].to);
-        } else {
-          part.from = 0.0;
-        }
-        reached = std::max(reached, part.to);
-      }
-      if (1.0 - reached > longest_void) {
-        add_open(v, reached, 1.0, c > first ? &net_.covered[c - 1] : nullptr, nullptr);
-      } else if (c > first) {
-        net_.covered[c - 1].to = 1.0;
-      }
+  void add_open_parts() {
+    for (const Gap& gap : gaps_) {
+      const Id from = net_.node_of[gap.from_corner], to = net_.node_of[gap.to_corner];
+      net_.open.push_back({gap.edge, gap.from, gap.to, gap.open ? no_id : from, gap.wet});
+      if (!gap.open) continue;
+      if (from != no_id) net_.outcrops.push_back({from, gap.edge, gap.from, gap.wet});
+      if (to != no_id) net_.outcrops.push_back({to, gap.edge, gap.to, gap.wet});
     }
-  }
-
-  void add_open(Id edge, double from, double to, const CoveredPart* before,
-                const CoveredPart* after) {
-    net_.open.push_back({edge, from, to});
-    if (ground_.supported[edge] != 0) return;
-    const auto beside = [&](Id node, double at) {
-      if (node != no_id) net_.outcrops.push_back({node, edge, at});
-    };
-    beside(before != nullptr ? before->to_node : net_.node_of[edge], from);
-    beside(after != nullptr ? after->from_node : net_.node_of[s_.blocks.next[edge]], to);
   }
 
   const FlowScene& s_;
   const FlowGround& ground_;
-  const std::vector<std::uint8_t>& acts_;
+  std::vector<std::uint8_t> supported_;  // [nv] 1: the edge lies along a boundary that acts
   std::vector<Overlap> overlaps_;
+  Nodes corners_;
+  std::vector<Gap> gaps_;
   FlowNetwork net_;
 };
 
@@ -342,11 +359,12 @@ double conductance_of(double from, double to, double length, double viscosity) {
 FlowGround flow_ground(const Model& model, const BlockSet& b, std::vector<WetEdge> outside) {
   FlowGround ground;
   ground.snap = boundary_snap(model, b);
-  ground.supported.assign(b.vertex_count(), 0);
-  for (const Boundary& boundary : model.boundaries) {
-    for (const Line& line : boundary_lines(model, b, boundary)) {
+  ground.along.resize(model.boundaries.size());
+  for (std::size_t q = 0; q < model.boundaries.size(); ++q) {
+    if (model.boundaries[q].traction) continue;
+    for (const Line& line : boundary_lines(model, b, model.boundaries[q])) {
       for (const OnLine& on : edges_on(b, line.a, line.b, ground.snap))
-        ground.supported[on.edge] = 1;
+        ground.along[q].push_back(on.edge);
     }
   }
   for (std::size_t q = 0; q < model.waters.size(); ++q) {
@@ -354,14 +372,24 @@ FlowGround flow_ground(const Model& model, const BlockSet& b, std::vector<WetEdg
     for (const Line& line : lines_along(model, b, water.sides, water.along))
       ground.heads.push_back({line.a, line.b, static_cast<Index>(q)});
   }
-  std::erase_if(outside, [&](const WetEdge& e) { return ground.supported[e.edge] != 0; });
+  ground.open.assign(b.vertex_count(), 0);
+  for (const Opening& opening : model.openings) {
+    for (std::size_t k = 0; k < opening.polygon.size(); ++k) {
+      const Vec2 p = opening.polygon[k] - b.origin,
+                 q = opening.polygon[(k + 1) % opening.polygon.size()] - b.origin;
+      for (const OnLine& on : edges_on(b, p, q, ground.snap)) ground.open[on.edge] = 1;
+    }
+  }
   ground.outside = std::move(outside);
   return ground;
 }
 
-FlowNetwork flow_network(const FlowScene& scene, const FlowGround& ground,
-                         const std::vector<std::uint8_t>& acts) {
-  return Builder(scene, ground, acts).build();
+FlowNetwork flow_network(const FlowScene& scene, const FlowGround& ground) {
+  return Builder(scene, ground).build();
+}
+
+void note_open_edges(const FlowScene& scene, FlowGround& ground) {
+  for (const Id edge : Builder(scene, ground, false).uncovered()) ground.open[edge] = 1;
 }
 
 }  // namespace edda

@@ -15,28 +15,23 @@ namespace edda {
 /// What water meets in a model, as drawn.
 struct FlowGround {
   double snap = 0.0;  ///< m: what is nearer to a line lies on it
-  std::vector<std::uint8_t>
-      supported;  ///< [nv] 1: the edge lies along a boundary, where the rock goes on
   /// A line along which the rock has the head of a water; local coordinates.
   struct HeadLine {
     Vec2 a, b;
     Index water;
   };
   std::vector<HeadLine> heads;
-  std::vector<WetEdge> outside;  ///< water on faces of blocks beside joints, by edge
+  std::vector<std::vector<Id>> along;  ///< [rows of Model::boundaries] edges on those that go on
+                                       ///< as rock: all but tractions of their own
+  std::vector<std::uint8_t> open;      ///< [nv] 1: no block is beside the edge, or beside a part
+                                       ///< of it; or an opening will be
+  std::vector<WetEdge> outside;        ///< water on edges where no joint is, by edge
 };
 FlowGround flow_ground(const Model& model, const BlockSet& blocks, std::vector<WetEdge> outside);
 
 struct FlowNode {
   Vec2 place;                ///< m, local coordinates
-  Index water = none;        ///< on whose line of heads it lies
   double conductance = 0.0;  ///< of its pipes together
-};
-
-/// A node at the end of an open part of an edge, where the edge has the coordinate s = at.
-struct Outcrop {
-  Id node, edge;
-  double at;
 };
 
 /// A face with an aperture, or a part of one.
@@ -49,27 +44,44 @@ struct FlowPipe {
   double conductance;                 ///< m2/s per Pa
 };
 
-/// A part of an edge that a face covers.
+/// A part of an edge that a joint with water covers, from the node `from_node` to the other one of
+/// the pipe.
 struct CoveredPart {
   Id edge;
-  double from, to;        ///< its own coordinate s
-  Id from_node, to_node;  ///< no_id: no water flows along it
-  Id pipe;                ///< or no_id
+  double from, to;  ///< its own coordinate s
+  Id from_node;
+  Id pipe;
 };
 
-/// A part of an edge beside which no block is.
+/// A part of an edge of a free block beside which no block is.
 struct OpenPart {
   Id edge;
   double from, to;
+  Id void_node;  ///< of an enclosed void, which is one node; no_id: it lies open
+  bool wet;      ///< open water may be there: it goes on from where water was drawn
+};
+
+/// A node at the end of what lies open, where the edge has the coordinate s = at.
+struct Outcrop {
+  Id node, edge;
+  double at;
+  bool wet;  ///< OpenPart::wet
+};
+
+/// A node on the line of heads of a water.
+struct HeadNode {
+  Id node;
+  Index water;
 };
 
 struct FlowNetwork {
   std::vector<Id> node_of;  ///< [nv] node of each corner; no_id: no face ends there
   std::vector<FlowNode> nodes;
   std::vector<FlowPipe> pipes;
-  std::vector<CoveredPart> covered;  ///< by edge, and along it
-  std::vector<OpenPart> open;        ///< the other parts of edges of free blocks, by edge
-  std::vector<Outcrop> outcrops;     ///< but of edges that lie along boundaries
+  std::vector<CoveredPart> covered;
+  std::vector<OpenPart> open;  ///< but of edges along boundaries that act
+  std::vector<Outcrop> outcrops;
+  std::vector<HeadNode> heads;
 };
 
 /// The blocks, where they are, and their contacts.
@@ -79,11 +91,12 @@ struct FlowScene {
   const State& state;
   const Pose& pose;
   const FaceSet& faces;
+  const ActiveIntervals& intervals;
 };
 
-/// acts: [rows of Model::waters] 1: the head along its lines holds at present.
-FlowNetwork flow_network(const FlowScene& scene, const FlowGround& ground,
-                         const std::vector<std::uint8_t>& acts);
+FlowNetwork flow_network(const FlowScene& scene, const FlowGround& ground);
+/// Marks in `ground` the edges of free blocks beside which no block is now, boundaries or not.
+void note_open_edges(const FlowScene& scene, FlowGround& ground);
 
 /// Discharge over the difference of pressures of a joint between parallel plates whose aperture is
 /// linear between its ends (m), of unit thickness, m2/s per Pa:

@@ -18,8 +18,8 @@ using Kind = NodeCondition::Kind;
 class SeepageSolver {
  public:
   SeepageSolver(const FlowNetwork& net, const std::vector<NodeCondition>& given, double unit_weight,
-                const FlowStorage* storage, std::vector<NodeWater>& water)
-      : net_(net), given_(given), gamma_(unit_weight), storage_(storage), water_(water) {
+                std::vector<NodeWater>& water)
+      : net_(net), given_(given), gamma_(unit_weight), water_(water) {
     const std::size_t count = net.nodes.size();
     for (std::size_t n = 0; n < count; ++n) {
       if (given_[n].kind == Kind::pressure) {
@@ -31,18 +31,16 @@ class SeepageSolver {
       }
     }
     list_pipes();
-    for (Id n = 0; n < count; ++n) {
-      if (given_[n].kind == Kind::inside && begin_[n + 1] > begin_[n]) inside_.push_back(n);
-    }
+    find_inside();
     std::stable_sort(inside_.begin(), inside_.end(),
                      [&](Id a, Id b) { return net.nodes[a].place.y > net.nodes[b].place.y; });
   }
 
   bool solve() {
-    constexpr int rounds = 10, newton_steps = 25;
+    constexpr int rounds = 8, newton_steps = 25;
     int sweeps = 20;
     constexpr double small = 2e-9;
-    if (storage_ == nullptr) begin_steady();
+    begin();
     for (int round = 0; round < rounds; ++round, sweeps *= 2) {
       for (int k = 0; k < newton_steps; ++k) {
         if (largest_imbalance() < small) return true;
@@ -62,9 +60,8 @@ class SeepageSolver {
     double conductance;
   };
 
-  /// No potential is above the highest one given, in steady flow. Where nothing is known all nodes
-  /// have it.
-  void begin_steady() {
+  /// No potential is above the highest one given. Where nothing is known all nodes have it.
+  void begin() {
     highest_ = -std::numeric_limits<double>::infinity();
     for (std::size_t n = 0; n < given_.size(); ++n) {
       if (given_[n].kind == Kind::pressure) highest_ = std::max(highest_, potential(n));
@@ -102,6 +99,30 @@ class SeepageSolver {
     }
   }
 
+  /// The nodes inside the rock that pipes connect to a given pressure. The others are dry.
+  void find_inside() {
+    std::vector<std::uint8_t> connected(given_.size(), 0);
+    std::vector<Id> next;
+    for (Id n = 0; n < given_.size(); ++n) {
+      if (given_[n].kind == Kind::pressure) next.push_back(n);
+    }
+    while (!next.empty()) {
+      const Id n = next.back();
+      next.pop_back();
+      if (connected[n] != 0) continue;
+      connected[n] = 1;
+      for (std::size_t q = begin_[n]; q < begin_[n + 1]; ++q) next.push_back(of_node_[q].node);
+    }
+    for (Id n = 0; n < given_.size(); ++n) {
+      if (given_[n].kind != Kind::inside) continue;
+      if (connected[n] != 0) {
+        inside_.push_back(n);
+      } else {
+        water_[n] = {0.0, 0.0};
+      }
+    }
+  }
+
   Balance balance_of(Id n) const {
     const NodeWater w = water_[n];
     Balance b;
@@ -114,13 +135,6 @@ class SeepageSolver {
       b.by_pressure += conductance * conducts;
       if (drop > 0.0) b.by_filled += conductance * drop;
     }
-    if (storage_ == nullptr) return b;
-    const double volume = storage_->volume[n] / storage_->step;
-    b.net += volume * (w.filled + w.pressure / storage_->bulk_modulus) -
-             storage_->content[n] / storage_->step;
-    b.gross += volume;
-    b.by_pressure += volume / storage_->bulk_modulus;
-    b.by_filled += volume;
     return b;
   }
 
@@ -218,7 +232,6 @@ class SeepageSolver {
   const FlowNetwork& net_;
   const std::vector<NodeCondition>& given_;
   double gamma_;
-  const FlowStorage* storage_;
   std::vector<NodeWater>& water_;
   std::vector<std::size_t> begin_;
   std::vector<Neighbour> of_node_;
@@ -241,8 +254,8 @@ Ends ends_of(const FlowNetwork& net, const FlowPipe& pipe, double gamma,
 }  // namespace
 
 bool solve_seepage(const FlowNetwork& network, const std::vector<NodeCondition>& given,
-                   double unit_weight, const FlowStorage* storage, std::vector<NodeWater>& water) {
-  return SeepageSolver(network, given, unit_weight, storage, water).solve();
+                   double unit_weight, std::vector<NodeWater>& water) {
+  return SeepageSolver(network, given, unit_weight, water).solve();
 }
 
 double discharge_of(const FlowNetwork& network, const FlowPipe& pipe, double unit_weight,

@@ -4,7 +4,8 @@
 // 0 and s = 1 (wet), or p = 0 and 0 <= s <= 1 (air enters). A pipe from i to j, phi_i >= phi_j, has
 //   q = s_i C (phi_i - phi_j)
 // so that water falls from a node that air enters, and none rises to it: below it stands. At each
-// node that is inside the rock the discharges, and the growth of what it stores, sum to zero.
+// node inside the rock the discharges sum to zero; one that no pipes connect to a given pressure is
+// dry.
 #pragma once
 
 #include <cstdint>
@@ -31,19 +32,11 @@ struct NodeWater {
   double filled = 0.0;    ///< s
 };
 
-/// A step in time, and what the nodes stored before it; null: steady flow.
-struct FlowStorage {
-  double step;                  ///< s
-  double bulk_modulus;          ///< Pa, of water
-  std::vector<double> volume;   ///< [nodes] m2, of the voids, at its end
-  std::vector<double> content;  ///< [nodes] m2, of water without pressure, at its beginning
-};
-
 /// Solves for the water of all nodes. [nodes] water: on entry a guess, as that of a state before.
 /// unit_weight: gamma, N/m3. Returns whether the set of wet nodes has been found; else the last one
 /// tried is taken.
 bool solve_seepage(const FlowNetwork& network, const std::vector<NodeCondition>& given,
-                   double unit_weight, const FlowStorage* storage, std::vector<NodeWater>& water);
+                   double unit_weight, std::vector<NodeWater>& water);
 
 /// Discharge of a pipe from its node `from` to its node `to`, m2/s.
 double discharge_of(const FlowNetwork& network, const FlowPipe& pipe, double unit_weight,

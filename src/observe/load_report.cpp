@@ -120,6 +120,13 @@ std::vector<std::string> load_report(const Simulation& sim) {
   }
   for (std::size_t q = 0; q < sim.scene->model.waters.size(); ++q) {
     const Water& water = sim.scene->model.waters[q];
+    if (water.level) {
+      lines.push_back(fmt::format("{} at the level {:.4g} m in the rock, where its line meets {}{}",
+                                  row_label("water", water.name, q), *water.level,
+                                  counted(sim.attached.joint_water.heads[q], "joint"),
+                                  range_of(water.rise, "rising", " m")));
+      continue;
+    }
     const double length = wet_length(sim, q);
     const Vec2 f = alone(sim, no_row, q);
     lines.push_back(

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "base/parallel.hpp"
@@ -98,8 +99,9 @@ void add_water(ContactRecord& r, const Simulation& sim, const FaceRow& row) {
   r.discharge = flow->discharge;
   r.water_pressure_a = flow->pressure_a;
   r.water_pressure_b = flow->pressure_b;
-  r.head = r.position.y + 0.5 * (flow->pressure_a + flow->pressure_b) /
-                              sim.scene->model.waters.front().unit_weight;
+  const double sum = flow->pressure_a + flow->pressure_b;
+  r.head = sum > 0.0 ? r.position.y + 0.5 * sum / sim.scene->model.waters.front().unit_weight
+                     : std::numeric_limits<double>::quiet_NaN();
 }
 
 ContactRecord face_record(const Simulation& sim, const FaceRow& row) {

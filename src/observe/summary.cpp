@@ -168,6 +168,10 @@ std::vector<Check> checks_of(const Simulation& sim, const Outcome& o) {
       limited("number of blocks that rest on nothing at the start",
               static_cast<double>(o.on_nothing), 0.0),
   };
+  if (sim.scene->model.flow) {
+    checks.push_back(limited("times that the free surface of the flow was not found",
+                             static_cast<double>(sim.attached.joint_water.not_found), 0.0));
+  }
   if (is_explicit(sim)) {
     const auto free = static_cast<double>(std::count(
         sim.scene->blocks.fixed.begin(), sim.scene->blocks.fixed.end(), std::uint8_t{0}));

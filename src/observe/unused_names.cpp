@@ -109,6 +109,25 @@ void warn_of_dry_waters(const Simulation& sim, std::vector<std::string>& warning
   }
 }
 
+/// Waters whose lines in the rock meet no joint that conducts, and flow without any joint.
+void warn_of_idle_flow(const Simulation& sim, std::vector<std::string>& warnings) {
+  const Model& model = sim.scene->model;
+  const JointWater& joints = sim.attached.joint_water;
+  if (!model.flow) return;
+  if (joints.rows.empty()) {
+    warnings.push_back("flow: no joint conducts water at the start; check the apertures");
+    return;
+  }
+  for (std::size_t q = 0; q < model.waters.size(); ++q) {
+    const Water& water = model.waters[q];
+    const bool in_rock = !water.sides.empty() || !water.along.empty();
+    if (!in_rock || joints.heads[q] > 0 || !sim.attached.loads.intervals.waters[q].acts()) continue;
+    warnings.push_back(fmt::format(
+        "{}: its line in the rock meets no joint that conducts water: it has no effect there",
+        water.where.key));
+  }
+}
+
 /// [stages] Whether the element of this name acts.
 std::vector<bool> acts_in_stages(const Model& model, const std::string& name) {
   const auto names = [&](const std::vector<std::string>& list) {
@@ -239,6 +258,7 @@ std::vector<std::string> unused_names(const Simulation& sim) {
                "no block is made of it", warnings);
   warn_of_bolts_in_one_block(sim, warnings);
   warn_of_dry_waters(sim, warnings);
+  warn_of_idle_flow(sim, warnings);
   warn_of_idle_shakings(sim, warnings);
   warn_of_lost_support(sim, warnings);
   return warnings;

@@ -61,7 +61,7 @@ struct ContactRecord {
   double aperture = 0.0;                                  ///< m, hydraulic
   double discharge = 0.0;                                 ///< m2/s, from end a to end b
   double water_pressure_a = 0.0, water_pressure_b = 0.0;  ///< Pa, at its ends
-  double head = 0.0;                                      ///< m, the mean of both ends: y + p/gamma
+  double head = 0.0;  ///< m, mean of both ends: y + p/gamma; NaN where dry
 };
 
 /// Larger ones are written as this.

@@ -49,7 +49,7 @@ void list_flow(Archive& a, Simulation& s) {
   a("flow.pressure", water.pressure);
   a("flow.filled", water.filled);
   a("flow.inflow", water.inflow);
-  a("flow.found", water.found);
+  a("flow.not_found", water.not_found);
   list_member(a, "flow.rows.edge", water.rows, &FlowRow::edge);
   list_member(a, "flow.rows.facing", water.rows, &FlowRow::facing);
   list_member(a, "flow.rows.aperture", water.rows, &FlowRow::aperture);

@@ -32,7 +32,7 @@ std::string first_line(const std::string& path) {
 TEST(Columns, HaveAUnitAndAMeaning) {
   const std::set<std::string_view> units{"text", "1",         "s",        "m",     "m2",   "rad",
                                          "m/s",  "N/m",       "Pa",       "rad/s", "m/s2", "N",
-                                         "J",    "as varied", "as asked", "N m"};
+                                         "J",    "as varied", "as asked", "N m",  "m2/s"};
   std::set<std::string_view> files;
   for (const ResultTable& table : result_tables()) {
     EXPECT_TRUE(files.insert(table.file).second) << table.file;
@@ -82,6 +82,7 @@ TEST(Columns, KeepTheirNames) {
             "ruptured\n");
   EXPECT_EQ(header_of(ResultFile::linings),
             "time,lining,piece,distance,x,y,thrust,moment,shear,utilisation,hinge_rotation\n");
+  EXPECT_EQ(header_of(ResultFile::flow), "time,water,inflow\n");
   EXPECT_EQ(header_of(ResultFile::stages),
             "stage,name,until,reached,start,end,steps,ratio,largest_ratio,largest_block,kinetic,"
             "strain,contact,gravity,friction,damping,fracture,external,drift,contacts,sliding,"
@@ -89,7 +90,8 @@ TEST(Columns, KeepTheirNames) {
   const std::string joints =
       "block_i,block_j,joint,x,y,normal_force,shear_force,opening,slip,state,ever_slipped,"
       "ever_opened,mobilised,length,closed_length,x_a,y_a,x_b,y_b,normal_stress,normal_stress_a,"
-      "normal_stress_b,shear_stress,table,damage,broken_by\n";
+      "normal_stress_b,shear_stress,table,damage,broken_by,aperture,discharge,water_pressure_a,"
+      "water_pressure_b\n";
   EXPECT_EQ(header_of(ResultFile::stage_joints), joints);
   EXPECT_EQ(header_of(ResultFile::joints), joints);
   EXPECT_EQ(header_of(ResultFile::blocks),

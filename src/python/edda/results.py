@@ -87,7 +87,8 @@ class Results:
         closed_length of its closed part, its ends x_a, y_a, x_b, y_b (m); normal_stress (Pa, compression positive;
         the mean over the overlap), normal_stress_a, normal_stress_b (at its ends), shear_stress (Pa); table (from which the
         line of the joint comes, as joint_set.bedding); damage and broken_by (tension or shear) of joints with fracture
-        energy. Forces are those of the model's thickness.
+        energy; aperture (m), discharge (m2/s, from a to b), water_pressure_a and water_pressure_b (Pa) of joints through
+        which water flows. Forces are those of the model's thickness.
         """
         return read_table(self._file("joints.csv"))
 
