@@ -2,6 +2,7 @@
 // them.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -35,6 +36,9 @@ bool acts_at_first(const Model& model, const std::string& name);
 /// Whether bolts or linings of this name are there from the start of the run, which holds unless a
 /// stage installs them.
 bool installed_at_first(const Model& model, const std::string& name);
+
+/// The linings that are there when this stage (0: the first) begins, by row.
+std::vector<std::uint8_t> linings_before(const Model& model, std::size_t stage);
 
 /// Row of the stage that has this name or number.
 std::optional<std::size_t> stage_called(const Model& model, const std::string& name);
