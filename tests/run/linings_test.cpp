@@ -218,7 +218,7 @@ TEST(Linings, ThatAreNotThereYetDoNotHarden) {
       "[materials.hard]\ndensity = 2400\nyoung = 3e10\npoisson = 0.2\n"
       "strength = { ucs = 20e6, tension = 2e6 }\n";
   const auto stages = [](const std::string& change) {
-    return "[[stage]]\nduration = 0.001\ninstall = ['shell']\n[[stage]]\nduration = 0.001\n" +
+    return "[[stage]]\nduration = 0.005\ninstall = ['shell']\n[[stage]]\nduration = 0.005\n" +
            std::string("change = [") + change + "]\ninstall = ['second']\n";
   };
   const Ran r = ran(hard + lined_hole(stages("{ material = 'concrete', to = 'hard' }")));

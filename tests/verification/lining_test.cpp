@@ -160,8 +160,8 @@ std::string hardening_ring(double first, double second, const std::string& later
            "\npressure = " + number(pressure) + "\n";
   };
   const std::string damped = "duration = 0.1\ndamping = { local = 0.5 }\n";
-  return "[materials.hardened]\ndensity = 2500\npoisson = 0.2\n" + later +
-         concrete(lining(ring, "size = 1\nmaterial = 'concrete'\n") + press("first", first) +
+  return concrete("[materials.hardened]\ndensity = 2500\npoisson = 0.2\n" + later +
+                  lining(ring, "size = 1\nmaterial = 'concrete'\n") + press("first", first) +
                   press("second", second) + "[[stage]]\n" + damped + "[[stage]]\n" + damped +
                   "change = [{ material = 'concrete', to = 'hardened' }]\n[[stage]]\n" + damped +
                   "activate = ['second']\n");
@@ -189,7 +189,8 @@ TEST(Lining, ConcreteThatHardens) {
   for (const double f : thrust) EXPECT_NEAR(f, p * radius, 2e-3 * p * radius);
   expect_relative({81, "ring that hardens", "thrust", "N"}, -forces(sim, 5).axial, (p + q) * radius,
                   2e-3);
-  expect_relative({81, "ring that hardens", "decrease of the radius", "m"}, -middle(sim, 0).x,
+  expect_relative({81, "ring that hardens", "decrease of the radius", "m"},
+                  0.5 * (middle(sim, 32).x - middle(sim, 0).x),
                   (p + q / 3.0) * radius * mean / axial, 4e-3);
 }
 
@@ -200,10 +201,15 @@ TEST(Lining, StrengthHardensToo) {
     const double ucs = part * demand / thick;
     const PreparedRun ready = settled(hardening_ring(
         p, q, "young = 30e9\nstrength = { ucs = " + number(ucs) + ", tension = 1e5 }\n"));
-    const BeamForces& f = forces(ready.sim, 5);
-    EXPECT_NEAR(-f.axial, std::min(part, 1.0) * demand, 2e-3 * demand) << part;
     const SectionStrength& strength = ready.sim.scene->zones.strength.front();
-    EXPECT_NEAR(utilisation(strength, f.axial, 0.0), std::min(1.0, 1.0 / part), 1e-2) << part;
+    double used = 0.0, least = 1.0;
+    for (const BeamState& piece : ready.sim.motion.zones.piece) {
+      for (const double moment : piece.forces.moment)
+        used = std::max(used, utilisation(strength, piece.forces.axial, moment));
+      least = std::min(least, piece.free.length / piece.length);
+    }
+    EXPECT_NEAR(used, std::min(1.0, 1.0 / part), part < 1.0 ? 1e-6 : 2e-2) << part;
+    EXPECT_EQ(least < 0.999, part < 1.0) << part;  // it has been squeezed
   }
 }
 
@@ -220,14 +226,14 @@ double ovalling_period(double pressure, double r, double t) {
   ring += "]";
   const std::string load = "[[load]]\nalong = " + ring + "\npressure = " + number(pressure) + "\n";
   const auto pinch = [&](double x) {
-    return "[[load]]\nname = 'pinch'\npoint = [" + number(x) + ", 0]\nforce = [" +
-           number(x > 0.0 ? -100.0 : 100.0) + ", 0]\n";
+    return std::string("[[load]]\nname = '") + (x > 0.0 ? "right" : "left") + "'\npoint = [" +
+           number(x) + ", 0]\nforce = [" + number(x > 0.0 ? -100.0 : 100.0) + ", 0]\n";
   };
   const std::string model =
       concrete("[[lining]]\nalong = " + ring + "\nsize = 1\nthickness = " + number(t) + "\n" +
                (pressure > 0.0 ? load : "") + pinch(r) + pinch(-r) +
                "[[stage]]\nduration = 0.1\ndamping = { local = 0.5 }\n"
-               "[[stage]]\ndeactivate = ['pinch']\nduration = 0.9\n");
+               "[[stage]]\ndeactivate = ['left', 'right']\nduration = 0.9\n");
   Result<Model> read = read_model_text(model, EDDA_SOURCE_DIR "/scene.toml", {});
   EXPECT_TRUE(read.ok()) << to_string(read.faults().front());
   PreparedRun ready = prepare_run(std::move(read.value())).value();
@@ -235,8 +241,11 @@ double ovalling_period(double pressure, double r, double t) {
   double before = 0.0, time_before = 0.0;
   RunOptions options;
   options.after_step = [&] {
-    const double oval = middle(ready.sim, 0).x - middle(ready.sim, 16).y - middle(ready.sim, 32).x +
-                        middle(ready.sim, 48).y;
+    double oval = 0.0;  // the part of the radial displacement in cos 2a
+    for (std::uint32_t k = 0; k < 64; ++k) {
+      const double a = 2.0 * pi * k / 64;
+      oval += std::cos(2.0 * a) * dot(middle(ready.sim, k), Vec2{std::cos(a), std::sin(a)});
+    }
     const double now = ready.sim.motion.state.time;
     if (now > 0.1 && before * oval < 0.0)
       crossings.push_back(time_before + (now - time_before) * before / (before - oval));
@@ -261,7 +270,7 @@ TEST(Lining, RingBuckles) {
   expect_relative({90, "", "period as an oval", "s"}, alone, 2.0 * pi / std::sqrt(square), 1e-2);
   const double left = std::pow(alone / pressed, 2);
   expect_relative({90, "", "critical pressure", "Pa"}, 0.5 * critical / (1.0 - left), critical,
-                  2e-2);
+                  1e-2);
 }
 
 /// A beam on two supports under a force at its middle becomes a mechanism at P = 4 M_p/L, with M_p
