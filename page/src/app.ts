@@ -27,6 +27,8 @@ import { showWaiting } from './ui/waiting';
 
 /** How often a served run is asked for more, ms. */
 export const ASK_EVERY = 1000;
+/** Height of the largest force of a lining, over the size of the linings. */
+const DIAGRAM = 0.2;
 
 export class App {
   readonly frames: Frames;
@@ -140,6 +142,7 @@ export class App {
       bolts: controls.bolts ? results.bolts.at(results.run.frames[this.shown]) : [],
       linings: controls.lining === undefined ? [] : results.linings.at(results.run.frames[this.shown], controls.lining),
       largestOfLinings: controls.lining === undefined ? 0 : results.linings.largest[controls.lining],
+      heightOfLinings: DIAGRAM * results.linings.extent,
     });
     if (!this.fitted) this.fit();
     this.showSelection();
@@ -245,7 +248,7 @@ export class App {
     const { lining } = controls;
     if (lining !== undefined && results.linings.any) {
       const unit = unitOf[lining];
-      strokes.push({ colour: css(theme.compression), text: `${lining} of linings, up to ${quantity(results.linings.largest[lining], unit, 3)}`, perPixel: per('linings'), unit });
+      strokes.push({ colour: css(theme.compression), text: `${lining} of linings, up to ${quantity(results.linings.largest[lining], unit, 3)}`, perPixel: per('linings'), unit, most: results.linings.largest[lining] });
     }
     const states = controls.field?.of === 'contacts' ? controls.field.name === 'state' : controls.contacts;
     return { scale: this.scale, kinds: this.kinds(controls.field), states: states ? results.run.states : [], strokes };

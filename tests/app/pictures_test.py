@@ -49,7 +49,7 @@ class Pictures(RampProgram):
             "gravity = [0, 0]\n[joints.j]\nfriction_angle = 30\n"
             + "".join(f"[materials.{name}]\ndensity = 2500\nyoung = {e}e9\npoisson = 0.2\nstrength = {{ ucs = {ucs}e6, tension = 1e6 }}\n"
                       for name, e, ucs in (("young", 10, 5), ("old", 30, 20)))
-            + f"[[lining]]\nname = 'shell'\nalong = [{line}]\nthickness = 0.3\nmaterial = 'young'\n[[load]]\nalong = [{line}]\npressure = 1e5\n"
+            + f"[[lining]]\nname = 'shell'\nalong = [{line}]\nthickness = 0.3\nsize = 2\nmaterial = 'young'\n[[load]]\nalong = [{line}]\npressure = 1e5\n"
             + f"[[stage]]\nname = 'soft'\n{damped}[[stage]]\nname = 'hard'\n{damped}change = [{{ material = 'young', to = 'old' }}]\n")
         self.expect(0, "run", "r.toml", "--quiet")
 

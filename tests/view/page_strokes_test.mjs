@@ -366,17 +366,19 @@ test('draws forces of linings across them, positive on the side of the wall', as
   const last = rows.filter((r) => r.time === rows[rows.length - 1].time);
   for (const quantity of ['thrust', 'moment', 'shear', 'utilisation']) {
     await choose(p, 'lining', quantity);
-    const { tips, size, origin } = await p.evaluate(() => {
+    const { tips, extent, size, origin } = await p.evaluate(() => {
       const { liningRims: layer, blockSize, pose } = edda.view;
-      return { tips: Array.from(layer.ends.subarray(0, 4 * layer.count)), size: blockSize, origin: pose.origin };
+      const { extent } = edda.results.linings;
+      return { tips: Array.from(layer.ends.subarray(0, 4 * layer.count)), extent, size: blockSize, origin: pose.origin };
     });
     assert.equal(tips.length, 2 * last.length);
+    assert.ok(Math.abs(extent - 4.8) < 0.05);
     const largest = Math.max(...rows.map((r) => Math.abs(Number(r[quantity]))));
     assert.ok(largest > 0);
     last.forEach((r, k) => {
       const [dx, dy] = [tips[2 * k] + origin[0] - r.x, tips[2 * k + 1] + origin[1] - r.y];
       const out = (dx * r.x + dy * r.y) / Math.hypot(r.x, r.y);
-      const wanted = (2 * size * Number(r[quantity])) / largest;
+      const wanted = (0.2 * extent * Number(r[quantity])) / largest;
       assert.ok(Math.abs(out - wanted) < 0.02 * size, `${quantity}: ${out}, not ${wanted}`);
     });
   }

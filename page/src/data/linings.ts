@@ -25,6 +25,9 @@ export class LiningRows {
   /** Largest sizes ever. */
   readonly largest: Record<Quantity, number> = { thrust: 0, moment: 0, shear: 0, utilisation: 0 };
 
+  /** The larger side of all that they ever cover, m. */
+  readonly extent: number = 0;
+
   constructor(table: Table | undefined) {
     if (table === undefined) return;
     const column = (name: string) => table.columns[table.names.indexOf(name)] ?? [];
@@ -37,6 +40,8 @@ export class LiningRows {
     this.begin.push(time.length);
     this.lining = column('lining').map(String);
     [this.x, this.y] = [column('x').map(Number), column('y').map(Number)];
+    const side = (places: number[]) => places.reduce((most, v) => Math.max(most, v), -Infinity) - places.reduce((least, v) => Math.min(least, v), Infinity);
+    if (this.any) this.extent = Math.max(side(this.x), side(this.y));
     for (const name of QUANTITIES) {
       this.values[name] = column(name).map(Number);
       this.largest[name] = this.values[name].reduce((most, v) => Math.max(most, Math.abs(v)), 0);

@@ -39,6 +39,8 @@ export interface Shown {
   /** A force along linings, and its largest size in all frames. */
   linings: LiningEnd[];
   largestOfLinings: number;
+  /** m, of that size. */
+  heightOfLinings: number;
 }
 
 export interface Theme extends layers.Palette {
@@ -57,7 +59,6 @@ const CROSS = 0.8;
 /** A corner that leans on an edge has a force, but no length to draw a pressure over. */
 const LEAST_LENGTH = 0.01;
 const ARROW = 2.5;
-const DIAGRAM = 2;
 
 export class View {
   readonly camera = new Camera();
@@ -132,7 +133,7 @@ export class View {
     const places = this.boltPlaces.of(shown.bolts, frame, shown.datum, shown.magnification, this.pose);
     layers.drawBolts(this.boltStrokes, shown.bolts, places, theme);
     const along = this.liningPlaces.of(shown.linings, frame, shown.datum, shown.magnification, this.pose);
-    layers.drawLinings(this.liningAreas, this.liningRims, shown.linings, along, shown.largestOfLinings, DIAGRAM * size, theme);
+    layers.drawLinings(this.liningAreas, this.liningRims, shown.linings, along, shown.largestOfLinings, shown.heightOfLinings, theme);
   }
 
   draw(): void {
@@ -173,7 +174,7 @@ export class View {
     const px = this.blockSize * this.camera.scale;
     if (of === 'forces') return (this.shown?.usualForce ?? 0) / (FORCE * px);
     if (of === 'pressures') return (this.shown?.usualPressure ?? 0) / (PRESSURE * px);
-    if (of === 'linings') return (this.shown?.largestOfLinings ?? 0) / (DIAGRAM * px);
+    if (of === 'linings') return (this.shown?.largestOfLinings ?? 0) / ((this.shown?.heightOfLinings ?? 1) * this.camera.scale);
     if (of === 'crosses') return (this.shown?.usualStress ?? 0) / (CROSS * px);
     return (this.shown?.largestVector ?? 0) / (ARROW * px);
   }
