@@ -4,6 +4,7 @@ import { LONGEST_BEYOND } from './data/ends';
 import { blockValue, blockValues } from './data/fields';
 import type { Frame } from './data/frame';
 import { Frames } from './data/frames';
+import { unitOf } from './data/linings';
 import { refresh, type Results } from './data/results';
 import { failedChecks, type Field, summaryOf } from './data/run';
 import { Scale } from './data/scale';
@@ -26,6 +27,8 @@ import { showWaiting } from './ui/waiting';
 
 /** How often a served run is asked for more, ms. */
 export const ASK_EVERY = 1000;
+/** Height of the largest force of a lining, over the size of the linings. */
+const DIAGRAM = 0.2;
 
 export class App {
   readonly frames: Frames;
@@ -137,6 +140,9 @@ export class App {
       vectors: controls.vectors,
       largestVector: this.largestVector(),
       bolts: controls.bolts ? results.bolts.at(results.run.frames[this.shown]) : [],
+      linings: controls.lining === undefined ? [] : results.linings.at(results.run.frames[this.shown], controls.lining),
+      largestOfLinings: controls.lining === undefined ? 0 : results.linings.largest[controls.lining],
+      heightOfLinings: DIAGRAM * results.linings.extent,
     });
     if (!this.fitted) this.fit();
     this.showSelection();
@@ -208,7 +214,7 @@ export class App {
     const { controls, results } = this;
     const theme = themes[this.theme];
     const strokes: LegendEntries['strokes'] = [];
-    const per = (of: 'forces' | 'pressures' | 'crosses' | 'arrows') => this.view.valuePerPixel(of);
+    const per = (of: 'forces' | 'pressures' | 'crosses' | 'arrows' | 'linings') => this.view.valuePerPixel(of);
     const { usual, largest } = results.run;
     const cut = (of: 'force' | 'stress') => (largest[of] > LONGEST * usual[of] ? LONGEST * usual[of] : undefined);
     if (controls.forces) strokes.push({ colour: css(theme.ink), text: `force, up to ${quantity(largest.force, 'N', 3)}`, perPixel: per('forces'), unit: 'N', cutAt: cut('force') });
@@ -238,6 +244,11 @@ export class App {
     if (controls.bolts && results.bolts.any) {
       strokes.push({ colour: css(theme.ink), text: `bolt, up to ${quantity(results.bolts.largest, 'N', 3)}` });
       strokes.push({ colour: css(theme.tension), text: 'bolt at its strength' });
+    }
+    const { lining } = controls;
+    if (lining !== undefined && results.linings.any) {
+      const unit = unitOf[lining];
+      strokes.push({ colour: css(theme.compression), text: `${lining} of linings, up to ${quantity(results.linings.largest[lining], unit, 3)}`, perPixel: per('linings'), unit, most: results.linings.largest[lining] });
     }
     const states = controls.field?.of === 'contacts' ? controls.field.name === 'state' : controls.contacts;
     return { scale: this.scale, kinds: this.kinds(controls.field), states: states ? results.run.states : [], strokes };

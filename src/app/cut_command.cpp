@@ -7,6 +7,7 @@
 #include "base/text.hpp"
 #include "blocks/build_blocks.hpp"
 #include "cutting/build_polygons.hpp"
+#include "cutting/linings.hpp"
 #include "observe/sliver_report.hpp"
 #include "observe/start_picture.hpp"
 #include "report/plot.hpp"
@@ -26,15 +27,17 @@ std::string number_of(int n, const char* one) {
   return counted(static_cast<std::size_t>(n), one);
 }
 
-void print_report(const Model& model, const PolygonSet& polygons) {
+/// The linings are the last of the polygons, after those of `rock`.
+void print_report(const Model& model, const PolygonSet& polygons, std::size_t rock) {
   const CutReport& r = polygons.report;
   std::size_t fixed = 0;
   double area = 0.0;
-  for (const BlockPolygon& b : polygons.blocks) {
-    fixed += b.fixed;
-    area += moments(b.rings).area;
+  for (std::size_t i = 0; i < rock; ++i) {
+    fixed += polygons.blocks[i].fixed;
+    area += moments(polygons.blocks[i].rings).area;
   }
-  fmt::print("blocks           {} ({} fixed), {:.6g} m2\n", polygons.blocks.size(), fixed, area);
+  fmt::print("blocks           {} ({} fixed), {:.6g} m2\n", rock, fixed, area);
+  if (!model.linings.empty()) fmt::print("linings          {}\n", polygons.blocks.size() - rock);
   if (!polygons.removed.empty()) {
     fmt::print("inside openings  {}, not part of the model\n",
                counted(polygons.removed.size(), "block"));
@@ -70,7 +73,8 @@ void print_report(const Model& model, const PolygonSet& polygons) {
   }
 }
 
-Trouble write_cut(const Model& model, const PolygonSet& polygons, const std::string& path) {
+Trouble write_cut(const Model& model, const PolygonSet& polygons, std::size_t rock,
+                  const std::string& path) {
   const std::string ending = ending_of(path);
   if (ending == ".csv") return write_cut_csv(path, polygons, model);
   const BlockSet blocks = build_blocks(model, polygons);
@@ -79,7 +83,7 @@ Trouble write_cut(const Model& model, const PolygonSet& polygons, const std::str
   const std::string field = model.materials.size() > 1 ? "material" : "none";
   Snapshot shot{std::move(grid)};
   shot.field = shown_field(field, shot.blocks, nullptr).value();
-  return plot({&shot, 1}, options_of(model, blocks.size()), path);
+  return plot({&shot, 1}, options_of(model, rock), path);
 }
 
 int cut(const CutArguments& args) {
@@ -92,14 +96,19 @@ int cut(const CutArguments& args) {
   const std::optional<Model> model =
       read_or_print(args.model, args.overrides, false, ReadFor::no_run);
   if (!model) return exit_code::bad_input;
-  const Result<PolygonSet> polygons = build_polygons(*model);
+  Result<PolygonSet> polygons = build_polygons(*model);
   if (!polygons.ok()) {
     print(polygons.faults());
     return exit_code::bad_input;
   }
-  print_report(*model, polygons.value());
+  const std::size_t rock = polygons.value().blocks.size();
+  if (const Faults faults = add_linings(*model, polygons.value()); !faults.empty()) {
+    print(faults);
+    return exit_code::bad_input;
+  }
+  print_report(*model, polygons.value(), rock);
   if (args.output.empty()) return exit_code::done;
-  if (const Trouble trouble = write_cut(*model, polygons.value(), args.output)) {
+  if (const Trouble trouble = write_cut(*model, polygons.value(), rock, args.output)) {
     print({*trouble});
     return exit_code::failed;
   }

@@ -10,12 +10,14 @@
 #include "app/along_picture.hpp"
 #include "app/common.hpp"
 #include "app/curve_picture.hpp"
+#include "app/nm_picture.hpp"
 #include "app/plot_source.hpp"
 
 namespace edda {
 namespace {
 
 constexpr std::size_t most_drawings = 4;
+const std::string every_lining;
 
 int refuse(const Fault& fault) {
   print({fault});
@@ -65,7 +67,7 @@ Trouble check(const PlotArguments& args) {
   const auto fault = [](const char* key, std::string problem, std::string remedy) {
     return Fault{{key, {}, 0, 0}, std::move(problem), std::move(remedy)};
   };
-  const bool is_table = !args.along.empty() && ending_of(args.output) == ".csv";
+  const bool is_table = (!args.along.empty() || args.is_nm) && ending_of(args.output) == ".csv";
   if (!args.output.empty() && !is_picture(ending_of(args.output)) && !is_table) {
     return Fault{{{}, args.output, 0, 0}, "ends in none of .png .svg .pdf", "name the file so"};
   }
@@ -101,6 +103,8 @@ Trouble check(const PlotArguments& args) {
     return fault("--along", "draws values over a distance", "leave out --scale and --window");
   if (const auto& l = args.along; !l.empty() && l[0] == l[2] && l[1] == l[3])
     return fault("--along", "has no length", "give x0,y0,x1,y1 of two points");
+  if (args.is_nm && (args.scale || !args.window.empty() || !args.range.empty()))
+    return fault("--nm", "draws thrust over moment", "leave out --scale, --window and --range");
   if (!args.along.empty() && !std::filesystem::is_directory(args.source))
     return fault("--along", "shows results, and " + args.source + " is no folder of them",
                  "run the model, and give the folder of its results");
@@ -121,6 +125,10 @@ int draw(const PlotArguments& args) {
     return finish(draw_curve(args.source, path, args.title), path);
   }
   if (!args.along.empty()) return draw_line(args, path);
+  if (args.is_nm) {
+    const Trouble trouble = draw_nm(args, path);
+    return trouble ? refuse(*trouble) : finish({}, path);
+  }
   return args.history.empty() ? draw_frames(args, path) : draw_histories(args, path);
 }
 
@@ -176,9 +184,11 @@ void add_what(CLI::App& command, PlotArguments& args) {
                    "arrows");
   command.add_flag("--bolts", args.bolts, "Bolts, their width in proportion to their axial force");
   command
-      .add_option("--lining", args.lining,
-                  "Thrust, moment or shear along linings, positive values on the side of the wall")
-      ->check(CLI::IsMember({"thrust", "moment", "shear"}));
+      .add_option(
+          "--lining", args.lining,
+          "Thrust, moment, shear or utilisation along linings, positive values on the side of the "
+          "wall")
+      ->check(CLI::IsMember({"thrust", "moment", "shear", "utilisation"}));
   command.add_flag("--cracks", args.cracks,
                    "Joints with fracture energy that have broken, in tension and in shear");
   command
@@ -215,13 +225,34 @@ void add_graphs(CLI::App& command, PlotArguments& args) {
           ->expected(4)
           ->excludes(history)
           ->excludes(curve);
+  CLI::Option* const nm =
+      command
+          .add_option_function<std::string>(
+              "--nm",
+              [&args](const std::string& lining) {
+                args.is_nm = true;
+                if (lining != every_lining) args.nm = lining;
+              },
+              "Thrust over moment of a lining (of all, without a name) at the ends of stages, or "
+              "at --time or --compare, within its strength instead; with -o FILE.csv as a table")
+          ->type_name("LINING")
+          ->expected(0, 1)
+          ->default_str(every_lining)
+          ->excludes(history)
+          ->excludes(curve)
+          ->excludes(along)
+          ->excludes(command.get_option("--field"));
+  for (const char* other : of_frames) {
+    if (std::string_view(other) != "--compare") nm->excludes(command.get_option(other));
+  }
   for (CLI::Option* graph : {history, curve, along}) {
     for (const char* other : of_frames) graph->excludes(command.get_option(other));
   }
   for (CLI::Option* graph : {history, curve}) {
     for (const char* other : {"--field", "--time"}) graph->excludes(command.get_option(other));
   }
-  for (CLI::Option* graph : {curve, along}) graph->excludes(command.get_option("--relative-to"));
+  for (CLI::Option* graph : {curve, along, nm})
+    graph->excludes(command.get_option("--relative-to"));
 }
 
 void add_how(CLI::App& command, PlotArguments& args) {
@@ -283,6 +314,7 @@ void add_plot(CLI::App& app, int& code) {
       "  edda plot slope --history energy,drift       lines over time\n"
       "  edda plot slope --history crest.ux --times 0,0.5 --range 0,0.1\n"
       "  edda plot tunnel --along 3,0,20,0 --field stress.xx,stress.yy\n"
+      "  edda plot tunnel --nm shell                  thrust and moment of a lining, its strength\n"
       "  edda plot wall --curve                       what a ramp varied over displacements\n"
       "  edda plot slope.toml                         the blocks before the run\n\n"
       "Fields: " +
@@ -298,7 +330,7 @@ void add_plot(CLI::App& app, int& code) {
   command
       ->add_option("-o,--output", args->output,
                    "The picture, .png, .svg or .pdf (default: the source's stem + .png); with "
-                   "--along also .csv")
+                   "--along and --nm also .csv")
       ->type_name("FILE");
   add_what(*command, *args);
   add_graphs(*command, *args);

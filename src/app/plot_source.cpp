@@ -8,6 +8,7 @@
 #include "app/common.hpp"
 #include "blocks/build_blocks.hpp"
 #include "cutting/build_polygons.hpp"
+#include "cutting/linings.hpp"
 #include "model/read_model.hpp"
 #include "observe/start_picture.hpp"
 #include "report/relative.hpp"
@@ -174,6 +175,8 @@ void add_options(const PlotArguments& args, PlotOptions& options) {
   }
 }
 
+}  // namespace
+
 std::vector<StageSpan> stages_of(const std::string& folder) {
   std::vector<StageSpan> stages;
   const Result<Table> table = read_table(folder + "/stages.csv");
@@ -186,8 +189,6 @@ std::vector<StageSpan> stages_of(const std::string& folder) {
   }
   return stages;
 }
-
-}  // namespace
 
 double least_stress_of(const Model& model) {
   constexpr double least_strain = 1e-11;
@@ -260,8 +261,10 @@ Result<PlotSource> from_model(const PlotArguments& args) {
   const Result<Model> model = read_model(args.source, args.overrides, ReadFor::no_run);
   if (!model.ok()) return model.faults();
   if (const Trouble trouble = judged(args, model.value())) return *trouble;
-  const Result<PolygonSet> polygons = build_polygons(model.value());
+  Result<PolygonSet> polygons = build_polygons(model.value());
   if (!polygons.ok()) return polygons.faults();
+  const std::size_t rock = polygons.value().blocks.size();
+  if (Faults faults = add_linings(model.value(), polygons.value()); !faults.empty()) return faults;
   const BlockSet blocks = build_blocks(model.value(), polygons.value());
   Snapshot shot{block_grid(block_cells(blocks), start_picture(model.value(), blocks))};
   const std::string otherwise = model.value().materials.size() > 1 ? "material" : "none";
@@ -270,7 +273,7 @@ Result<PlotSource> from_model(const PlotArguments& args) {
   shot.field = field.value();
   PlotSource source;
   source.shots.push_back(std::move(shot));
-  source.options = options_of(model.value(), blocks.size());
+  source.options = options_of(model.value(), rock);
   add_options(args, source.options);
   return source;
 }

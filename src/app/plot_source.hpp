@@ -14,7 +14,7 @@
 namespace edda {
 
 struct PlotArguments {
-  std::string source, output, field, vectors, lining, title, relative_to;
+  std::string source, output, field, vectors, lining, title, relative_to, nm;
   std::vector<std::string> overrides, history;
   std::vector<double> compare;        ///< s
   std::vector<double> range, window;  ///< low, high; x0, y0, x1, y1
@@ -26,7 +26,7 @@ struct PlotArguments {
   double font = 8.0;
   bool forces = false, principal = false, bolts = false, cracks = false, before = false,
        no_marks = false;
-  bool whole_range = false, curve = false;
+  bool whole_range = false, curve = false, is_nm = false;
 };
 
 /// All data of a picture.
@@ -44,6 +44,8 @@ struct HistorySource {
   Table table;
   HistoryPicture picture;
 };
+/// The stages that have ended.
+std::vector<StageSpan> stages_of(const std::string& folder);
 /// Fills `source`, which must stay where it is.
 Trouble read_histories(const PlotArguments& args, HistorySource& source);
 

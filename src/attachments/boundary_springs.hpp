@@ -32,6 +32,8 @@ struct BoundarySprings {
   void engage(Index row, const std::vector<double>& x, const std::vector<double>& y);
   /// Those on a block that was not there begin without force where it is.
   void engage_block(Id block, const std::vector<double>& x, const std::vector<double>& y);
+  /// Spring q is without force where its vertex is at x, y.
+  void start_at(std::size_t q, const std::vector<double>& x, const std::vector<double>& y);
 };
 
 inline bool has_springs(BoundaryType type) {

@@ -33,12 +33,14 @@ class Reach {
 }  // namespace
 
 std::vector<std::uint8_t> change_properties(BlockSet& b, const Model& model,
-                                            const PropertyChange& change) {
+                                            const PropertyChange& change,
+                                            const std::vector<std::uint8_t>& linings) {
   const Reach reach(model, change);
   std::vector<std::uint8_t> changed(b.vertex_count(), 0);
   if (change.material != none) {
     for (std::size_t i = 0; i < b.size(); ++i) {
-      if (b.material[i] != change.material || b.is_lining(i)) continue;
+      if (b.material[i] != change.material) continue;
+      if (b.is_lining(i) && linings[static_cast<std::size_t>(b.lining[i])] == 0) continue;
       if (!reach.has(Vec2{b.centroid_x[i], b.centroid_y[i]} + b.origin)) continue;
       b.material[i] = change.row;
       std::fill(changed.begin() + b.vertex_begin[i], changed.begin() + b.vertex_begin[i + 1],

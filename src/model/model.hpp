@@ -91,6 +91,15 @@ struct Material {
   bool pore_pressure = true;  ///< of the water in the pores of its zones
   double damping =
       0.5;  ///< strain damping, as a fraction of critical in the lowest mode of a block
+  bool deforms_as(const Material& other) const {
+    return density == other.density && young == other.young && poisson == other.poisson &&
+           foliation == other.foliation && damping == other.damping &&
+           pore_pressure == other.pore_pressure && deformation == other.deformation;
+  }
+  /// Whether rock of this material may become rock of another: only its strength in zones changes.
+  bool may_weather_to(const Material& other) const {
+    return deforms_as(other) && yield && other.yield;
+  }
 };
 
 /// Restitution of an impact (theory, section 9.7): a fraction of the velocity, or, for a rocking

@@ -86,8 +86,8 @@ struct Ramp {
   Index target = none;               ///< row of loads, waters or boundaries
 };
 
-/// Joints or rock that have other properties from the start of a stage on, all of them or those in
-/// a part of the model.
+/// Joints, rock or linings that have other properties from the start of a stage on, all of them or
+/// those in a part of the model.
 struct PropertyChange {
   Index joints = none, material = none;  ///< those that change: one of the two
   std::string to;                        ///< a law of joints, or a material

@@ -88,6 +88,17 @@ bool installed_at_first(const Model& model, const std::string& name) {
                       [&](const Stage& stage) { return holds(stage.install, name); });
 }
 
+std::vector<std::uint8_t> linings_before(const Model& model, std::size_t stage) {
+  std::vector<std::uint8_t> there;
+  for (const Lining& lining : model.linings)
+    there.push_back(lining.name.empty() || installed_at_first(model, lining.name));
+  for (std::size_t q = 0; q < stage; ++q) {
+    for (const Index row : linings_called(model, model.stages[q].install))
+      there[static_cast<std::size_t>(row)] = 1;
+  }
+  return there;
+}
+
 std::vector<Stage> stages_of(const Model& model) {
   if (!model.stages.empty()) return model.stages;
   Stage only;

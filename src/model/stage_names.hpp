@@ -2,6 +2,7 @@
 // them.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -58,6 +59,9 @@ struct Owners {
   Index all() const { return of_walls() + fills; }
   Index openings, boundaries, fills;
 };
+
+/// The linings that are there when this stage (0: the first) begins, by row.
+std::vector<std::uint8_t> linings_before(const Model& model, std::size_t stage);
 
 /// Row of the stage that has this name or number.
 std::optional<std::size_t> stage_called(const Model& model, const std::string& name);

@@ -4,29 +4,10 @@
 #include <cmath>
 
 #include "blocks/build_blocks.hpp"
+#include "observe/bolt_nodes.hpp"
 #include "results/csv.hpp"
 
 namespace edda {
-namespace {
-
-/// Axial force at node k of a bolt with the nodes [first, last). In a joint it is that of the steel
-/// across it, at a free end zero, elsewhere the mean of the two bars.
-double axial_force(const Bolts& b, const BoltData& row, std::size_t k, std::size_t first,
-                   std::size_t last) {
-  if (!row.grouted) return b.bars.force[first];
-  const double before = k > first ? b.bars.force[k - 1] : 0.0;
-  const double after = k + 1 < last ? b.bars.force[k] : 0.0;
-  if (k + 1 < last && b.crossing[k] != 0) return after;
-  if (k > first && b.crossing[k - 1] != 0) return before;
-  if (k == first || k + 1 == last) return 0.0;
-  return 0.5 * (before + after);
-}
-
-double part(double force, double strength) {
-  return force != 0.0 && strength > 0.0 ? std::abs(force) / strength : 0.0;
-}
-
-}  // namespace
 
 std::vector<Vec2> reactions(const Simulation& sim, const Instant& at) {
   std::vector<Vec2> sum(sim.scene->model.boundaries.size());
@@ -83,29 +64,12 @@ std::string bolts_rows(const Simulation& sim) {
   const Bolts& b = sim.attached.bolts;
   Csv csv;
   for (std::size_t r = 0; r < b.rows.size(); ++r) {
-    const BoltData& row = b.rows[r];
-    const std::size_t first = b.begin[r], last = b.begin[r + 1];
-    for (std::size_t k = first; k < last; ++k) {
-      const Vec2 place =
-          node_place(b, sim.scene->blocks, sim.motion.state, k) + sim.scene->blocks.origin;
-      const double axial = axial_force(b, row, k, first, last);
-      const double bond = b.bonded[k] > 0.0 ? b.bonds.force[k] / b.bonded[k] : 0.0;
-      // Bars that end in excavated rock have been cut with it.
-      const auto holds = [&](std::size_t n) {
-        return !is_cut_off(b, sim.motion.state, n) && !is_cut_off(b, sim.motion.state, n + 1);
-      };
-      const auto near = [&](const std::vector<std::uint8_t>& flags) {
-        return (k + 1 < last && flags[k] != 0 && holds(k)) ||
-               (k > first && flags[k - 1] != 0 && holds(k - 1));
-      };
-      const double dowel = k + 1 < last && b.dowels.stiffness[k] > 0.0    ? b.dowels.force[k]
-                           : k > first && b.dowels.stiffness[k - 1] > 0.0 ? b.dowels.force[k - 1]
-                                                                          : 0.0;
-      const double used = std::max(
-          {part(axial, row.yield), part(bond, row.bond_strength), part(dowel, row.dowel_strength)});
-      csv.add(sim.motion.state.time).add(row.name).add(b.distance[k]).add(place.x).add(place.y);
-      csv.add(axial / row.share).add(bond / row.share).add(dowel / row.share).add(used);
-      csv.add(int{near(b.bars.yielded)}).add(int{near(b.bars.broken)}).end();
+    for (std::size_t k = b.begin[r]; k < b.begin[r + 1]; ++k) {
+      const BoltNode node = bolt_node(sim, r, k);
+      csv.add(sim.motion.state.time).add(b.rows[r].name).add(b.distance[k]);
+      csv.add(node.place.x).add(node.place.y);
+      csv.add(node.axial).add(node.bond).add(node.dowel).add(node.utilisation);
+      csv.add(int{node.yielded}).add(int{node.ruptured}).end();
     }
   }
   return csv.text();
@@ -139,6 +103,8 @@ std::string linings_rows(const Simulation& sim) {
     if (!b.is_lining(i) || sim.motion.state.alive[i] == 0) continue;
     const std::string_view name = b.name(i);
     const std::string lining = name.empty() ? std::to_string(b.lining[i]) : std::string(name);
+    const auto of = static_cast<std::size_t>(b.material[i]);
+    const std::string& material = sim.scene->model.materials[of].name;
     double distance = 0.0;
     for (std::uint32_t p = model.pair_begin[i]; p < model.pair_begin[i + 1]; ++p) {
       const std::uint32_t q = model.piece_of_pair[p];
@@ -154,7 +120,7 @@ std::string linings_rows(const Simulation& sim) {
         csv.add(0.0 - state.forces.axial).add(moment);
         csv.add(state.forces.shear(state.length));
         csv.add(utilisation(model.strength[piece.strength], state.forces.axial, moment));
-        csv.add(state.hinge[end]).end();
+        csv.add(state.hinge[end]).add(material).end();
       }
     }
   }

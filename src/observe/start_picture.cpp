@@ -19,13 +19,20 @@ Picture start_picture(const Model& model, const BlockSet& b) {
     r.area = b.area[i];
     p.blocks.push_back(r);
   }
-  const std::size_t nv = b.vertex_count();
-  for (auto* values : {&p.ux, &p.uy, &p.vx, &p.vy}) values->assign(nv, 0.0);
-  p.x.reserve(nv);
-  p.y.reserve(nv);
+  const std::size_t nv = b.vertex_count(), points = nv + b.meshes.nodes();
+  for (auto* values : {&p.ux, &p.uy, &p.vx, &p.vy}) values->assign(points, 0.0);
+  p.zones.resize(b.meshes.zone.size());
+  p.x.reserve(points);
+  p.y.reserve(points);
   for (std::size_t v = 0; v < nv; ++v) {
     p.x.push_back(b.vertex_x[v] + b.origin.x);
     p.y.push_back(b.vertex_y[v] + b.origin.y);
+  }
+  for (std::size_t i = 0; b.meshes.any() && i < b.size(); ++i) {
+    for (std::size_t j = b.meshes.begin[i]; j < b.meshes.begin[i + 1]; ++j) {
+      p.x.push_back(b.centroid_x[i] + b.meshes.arm_x[j] + b.origin.x);
+      p.y.push_back(b.centroid_y[i] + b.meshes.arm_y[j] + b.origin.y);
+    }
   }
   return p;
 }

@@ -90,8 +90,11 @@ std::vector<LegendKey> keys_of(std::span<const Snapshot> shots, const PlotOption
     keys.push_back({Sign::bolt, "bolts", "", {}, true});
   }
   if (!options.lining.empty()) {
-    keys.push_back({Sign::diagram, options.lining + " of linings",
-                    options.lining == "moment" ? "N m" : "N", for_legend(scales.linings, longest)});
+    const char* unit = options.lining == "moment"        ? "N m"
+                       : options.lining == "utilisation" ? ""
+                                                         : "N";
+    keys.push_back(
+        {Sign::diagram, options.lining + " of linings", unit, for_legend(scales.linings, longest)});
   }
   return keys;
 }

@@ -67,9 +67,9 @@ struct PlotOptions {
   double least_stress = 0.0;  ///< Pa; where none is larger they are rounding and are not drawn
   bool cracks = false;        ///< faces that have broken, in tension and in shear
   bool bolt_forces = false;   ///< bolts as wide as their axial force
-  std::string lining;         ///< "thrust", "moment" or "shear" along linings; empty: none
-  bool outlines = true;       ///< of the blocks
-  bool marks = true;          ///< monitors and convergence lines
+  std::string lining;  ///< "thrust", "moment", "shear" or "utilisation" along linings; empty: none
+  bool outlines = true;                              ///< of the blocks
+  bool marks = true;                                 ///< monitors and convergence lines
   std::optional<std::pair<double, double>> range{};  ///< of the colours, SI units
   bool whole_range = false;  ///< else a few blocks may lie beyond the scales of colours and arrows
   std::optional<Box> window{};  ///< what is shown, m; default: everything

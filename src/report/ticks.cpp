@@ -40,7 +40,7 @@ ScaledUnit scaled_unit(const std::string& unit, double largest) {
   constexpr std::array<std::pair<double, const char*>, 7> prefixes{
       {{1e9, "G"}, {1e6, "M"}, {1e3, "k"}, {1.0, ""}, {1e-3, "m"}, {1e-6, "µ"}, {1e-9, "n"}}};
   const bool metre = unit == "m" || unit == "m/s";
-  if (!metre && unit != "Pa" && unit != "N" && unit != "J") return {unit, 1.0};
+  if (!metre && unit != "Pa" && unit != "N" && unit != "N m" && unit != "J") return {unit, 1.0};
   if (!(largest > 0.0) || !std::isfinite(largest)) return {unit, 1.0};
   for (const auto& [size, prefix] : prefixes) {
     if (metre && size > 1.0) continue;

@@ -282,7 +282,7 @@ constexpr std::array cut{
       "trace.0; empty for blocks that are given as such."},
 };
 
-constexpr std::array<ResultTable, 23> tables{{
+constexpr std::array<ResultTable, 24> tables{{
     {"history.csv",
      "A row at the start, at each multiple of output.history_every and at the end of each stage; "
      "stages until equilibrium have more (output.settling).",
@@ -301,6 +301,8 @@ constexpr std::array<ResultTable, 23> tables{{
      curve},
     {"joints_N.csv", "The contacts at the end of stage N, with the columns of joints.csv.", joints,
      TableIn::folder_by_stage},
+    {"bolt_summary.csv",
+     "A row for each installed bolt at the end of the run, of models with bolts.", bolt_summary},
     {"blocks.csv",
      "A row for each block that is there at the end of the run; excavated blocks have none.",
      blocks},

@@ -34,6 +34,7 @@ enum class ResultFile {
   stages,
   curve,
   stage_joints,
+  bolt_summary,
   blocks,
   joints,
   fos,

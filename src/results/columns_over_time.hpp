@@ -135,6 +135,29 @@ constexpr std::array bolts{
     C{"ruptured", "1", "1: the steel beside the node has ruptured; 0: it has not."},
 };
 
+constexpr std::array bolt_summary{
+    C{"bolt", "text", "Name of the bolt."},
+    C{"largest_force", "N",
+      "Axial force of one bolt that is largest by size, of all its nodes in all frames, positive "
+      "in "
+      "tension."},
+    C{"time", "s", "Time of that frame."},
+    C{"distance", "m", "Distance of that node from the head of the bolt."},
+    C{"x", "m", "Coordinate x of the node at that time."},
+    C{"y", "m", "Coordinate y of the node at that time."},
+    C{"axial_force", "N",
+      "Axial force of one bolt at the end that is largest by size, positive in tension."},
+    C{"bond_force", "N/m",
+      "Force of the bond per length of one bolt at the end that is largest by size, positive where "
+      "the rock resists slip of the bolt away from its head."},
+    C{"dowel_force", "N",
+      "Shear force of one bolt across a joint at the end that is largest by size."},
+    C{"utilisation", "1", "Largest utilisation of its nodes at the end, as in bolts.csv."},
+    C{"bond_slipped", "1", "1: the bond has slipped somewhere at some time; 0: it has not."},
+    C{"yielded", "1", "1: the steel has yielded somewhere at some time; 0: it has not."},
+    C{"ruptured", "1", "1: the steel has ruptured somewhere; 0: it has not."},
+};
+
 constexpr std::array linings{
     time_column,
     C{"lining", "text", "Name of the lining, or its number in the model, from 0."},
@@ -152,6 +175,7 @@ constexpr std::array linings{
       "without a strength."},
     C{"hinge_rotation", "rad",
       "Plastic rotation of that end so far, positive where it opens the side at the wall."},
+    C{"material", "text", "Name of the material that the lining has by then (stage.change)."},
 };
 
 constexpr std::array stages{

@@ -223,6 +223,22 @@ static void list_chatter(Archive& a, Chatter& c) {
 }
 
 template <class Archive>
+static void list_peaks(Archive& a, std::vector<BoltPeak>& peaks) {
+  const auto member = [&](const char* name, auto part) {
+    std::vector<double> values;
+    for (BoltPeak& p : peaks) values.push_back(part(p));
+    a(name, values);
+    peaks.resize(values.size());
+    for (std::size_t r = 0; r < peaks.size(); ++r) part(peaks[r]) = values[r];
+  };
+  member("files.bolt_peaks.force", [](BoltPeak& p) -> double& { return p.force; });
+  member("files.bolt_peaks.time", [](BoltPeak& p) -> double& { return p.time; });
+  member("files.bolt_peaks.distance", [](BoltPeak& p) -> double& { return p.distance; });
+  member("files.bolt_peaks.x", [](BoltPeak& p) -> double& { return p.place.x; });
+  member("files.bolt_peaks.y", [](BoltPeak& p) -> double& { return p.place.y; });
+}
+
+template <class Archive>
 void Driver::list(Archive& a) {
   RecorderMemory files = recorder_.memory();
   a("files.history_bytes", files.history_bytes);
@@ -232,6 +248,7 @@ void Driver::list(Archive& a) {
   if (sim_.scene->model.flow) a("files.flow_bytes", files.flow_bytes);
   a("files.frame_times", files.frame_times);
   a("files.velocities", files.velocities);
+  if (has_bolts(sim_.scene->model)) list_peaks(a, files.bolt_peaks);
   // For each file its name, a line break, and its hash.
   std::string inputs;
   for (const InputFile& f : files.inputs) inputs += f.file + '\n' + f.sha256 + '\n';

@@ -43,7 +43,7 @@ void Driver::write_end() {
     recorder_.finish_frame();  // its trouble comes back with the tables
     const Picture picture = picture_of(sim_, look());
     forget_instant();
-    const Trouble trouble = recorder_.tables(picture);
+    const Trouble trouble = recorder_.tables(sim_, picture);
     if (trouble && !disk_trouble_) {
       outcome_.status = Status::failed;
       outcome_.message = to_string(*trouble);

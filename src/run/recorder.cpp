@@ -77,9 +77,11 @@ Trouble Recorder::begin(const Simulation& sim, const Gauges& gauges) {
 }
 
 RecorderMemory Recorder::memory() const {
-  return {history_.bytes(), reactions_.bytes(), bolts_.bytes(),
-          linings_.bytes(), flow_.bytes(),      frames_ ? frames_->times() : std::vector<double>{},
-          inputs_,          velocities_};
+  return {history_.bytes(), reactions_.bytes(),
+          bolts_.bytes(),   linings_.bytes(),
+          flow_.bytes(),    frames_ ? frames_->times() : std::vector<double>{},
+          bolt_peaks_,      inputs_,
+          velocities_};
 }
 
 Trouble Recorder::sync() {
@@ -98,6 +100,7 @@ Trouble Recorder::resume(const Simulation& sim, const Gauges& gauges,
   if (auto t = lock_.take(folder_)) return t;
   inputs_ = memory.inputs;
   velocities_ = memory.velocities;
+  bolt_peaks_ = memory.bolt_peaks;
   if (auto t = history_.reopen(path("history.csv"), memory.history_bytes)) return t;
   if (!sim.scene->model.boundaries.empty()) {
     if (auto t = reactions_.reopen(path("reactions.csv"), memory.reactions_bytes)) return t;
@@ -191,6 +194,7 @@ Trouble Recorder::stage_joints(std::size_t stage, const Picture& picture) {
 Trouble Recorder::frame(const Simulation& sim, Picture picture) {
   if (has_bolts(sim.scene->model)) {
     if (auto t = bolts_.add(bolts_rows(sim))) return t;
+    raise_peaks(sim, bolt_peaks_);
   }
   if (!sim.scene->model.linings.empty()) {
     if (auto t = linings_.add(linings_rows(sim))) return t;
@@ -201,7 +205,7 @@ Trouble Recorder::frame(const Simulation& sim, Picture picture) {
   return frames_ ? frames_->add(std::move(picture)) : Trouble{};
 }
 
-Trouble Recorder::tables(const Picture& picture) {
+Trouble Recorder::tables(const Simulation& sim, const Picture& picture) {
   if (!writes()) return {};
   Trouble first = history_.close();
   const auto also = [&](const Trouble& t) { first = first ? first : t; };
@@ -209,6 +213,11 @@ Trouble Recorder::tables(const Picture& picture) {
   if (frames_) also(frames_->write_series());
   if (auto t = write_blocks_csv(path("blocks.csv"), picture.blocks)) return t;
   if (auto t = write_joints_csv(path("joints.csv"), picture.contacts)) return t;
+  if (has_bolts(sim.scene->model)) {
+    const std::string text =
+        begin_table(ResultFile::bolt_summary).text() + bolt_summary_rows(sim, bolt_peaks_);
+    if (auto t = write_file(path("bolt_summary.csv"), text)) return t;
+  }
   if (auto t = write_columns_csv(folder_, owners_)) return t;
   return first;
 }

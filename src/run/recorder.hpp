@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "observe/bolt_summary.hpp"
 #include "observe/gauges.hpp"
 #include "observe/outcome.hpp"
 #include "observe/summary.hpp"
@@ -20,6 +21,7 @@ struct RecorderMemory {
   std::uint64_t history_bytes = 0, reactions_bytes = 0, bolts_bytes = 0, linings_bytes = 0,
                 flow_bytes = 0;
   std::vector<double> frame_times;  ///< s
+  std::vector<BoltPeak> bolt_peaks;
   std::vector<InputFile> inputs;
   std::vector<double> velocities;  ///< Recorder::velocities_
 };
@@ -52,8 +54,8 @@ class Recorder {
   Trouble curve(const std::string& csv);
   /// joints_`stage`.csv, the contacts at the end of the stage.
   Trouble stage_joints(std::size_t stage, const Picture& picture);
-  /// blocks.csv, joints.csv, and the end of history.csv.
-  Trouble tables(const Picture& picture);
+  /// blocks.csv, joints.csv, bolt_summary.csv, and the end of history.csv.
+  Trouble tables(const Simulation& sim, const Picture& picture);
   /// summary.json, last of all.
   Trouble summary(const Simulation& sim, const Outcome& outcome, const std::string& governed_by);
   bool writes() const { return !folder_.empty(); }
@@ -70,6 +72,7 @@ class Recorder {
   std::vector<double> velocities_;
   RowFile history_, reactions_, bolts_, linings_, flow_;
   std::optional<FrameSeries> frames_;
+  std::vector<BoltPeak> bolt_peaks_;
 };
 
 }  // namespace edda

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "blocks/property_change.hpp"
+#include "model/stage_names.hpp"
 #include "run/ramp.hpp"
 #include "run/stages.hpp"
 #include "step/changes.hpp"
@@ -71,22 +72,51 @@ void change_strength(Simulation& sim, const Stage& stage, double factor) {
   }
 }
 
+/// Whether rock has got an elasticity or a strength that is for linings alone.
+bool hardens_rock(const BlockSet& b, const Model& model, const PropertyChange& change,
+                  const std::vector<Index>& before) {
+  if (change.material == none) return false;
+  const auto of = [&](Index row) -> const Material& {
+    return model.materials[static_cast<std::size_t>(row)];
+  };
+  if (of(change.material).may_weather_to(of(change.row))) return false;
+  for (std::size_t i = 0; i < b.size(); ++i) {
+    if (!b.is_lining(i) && b.material[i] != before[i]) return true;
+  }
+  return false;
+}
+
+Fault rock_of(const Model& model, const PropertyChange& change) {
+  return {
+      change.where,
+      fmt::format("changes rock of \"{}\", which is the material of a lining, too: of rock only "
+                  "the strength in zones can change",
+                  model.materials[static_cast<std::size_t>(change.material)].name),
+      "give the lining a material of its own"};
+}
+
 }  // namespace
 
 Faults idle_changes(const Scene& scene) {
   Faults faults;
   BlockSet blocks = scene.blocks;
   const Model& model = scene.model;
-  for (const Stage& stage : model.stages) {
-    for (const PropertyChange& change : stage.change) {
-      if (!change_properties(blocks, model, change).empty()) continue;
+  for (std::size_t q = 0; q < model.stages.size(); ++q) {
+    const std::vector<std::uint8_t> linings = linings_before(model, q);
+    for (const PropertyChange& change : model.stages[q].change) {
+      const std::vector<Index> before = blocks.material;
+      if (!change_properties(blocks, model, change, linings).empty()) {
+        if (hardens_rock(blocks, model, change, before)) faults.push_back(rock_of(model, change));
+        continue;
+      }
       const bool joints = change.joints != none;
       const auto row = static_cast<std::size_t>(joints ? change.joints : change.material);
-      faults.push_back({change.where,
-                        fmt::format("changes nothing: there {} \"{}\" by then",
-                                    joints ? "are no joints of law" : "is no rock of material",
-                                    joints ? model.joints[row].name : model.materials[row].name),
-                        "check its name, region and distance, and the changes before it"});
+      faults.push_back(
+          {change.where,
+           fmt::format("changes nothing: there {} \"{}\" by then",
+                       joints ? "are no joints of law" : "is no rock and no lining of material",
+                       joints ? model.joints[row].name : model.materials[row].name),
+           "check its name, region and distance, and the changes before it"});
     }
   }
   return faults;
@@ -95,8 +125,7 @@ Faults idle_changes(const Scene& scene) {
 void repeat_changes(Simulation& sim, const std::vector<StagePlan>& plans, std::size_t stage) {
   for (std::size_t q = 0; q <= stage && q < plans.size(); ++q) {
     for (const PropertyChange& change : plans[q].stage.change) {
-      Scene& scene = sim.scene.edit();
-      change_properties(scene.blocks, scene.model, change);
+      repeat_change(sim.scene.edit(), change, linings_before(sim.scene->model, q));
     }
   }
 }

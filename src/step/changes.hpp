@@ -16,6 +16,7 @@
 namespace edda {
 
 struct Attached;
+struct Scene;
 struct Simulation;
 
 /// Replaces the damping, and updates the step that it allows.
@@ -31,9 +32,12 @@ void set_strength_factor(Simulation& sim, double factor);
 /// (note_jump()).
 void take_strength_factors(Simulation& sim, const std::vector<double>& factors);
 
-/// Gives joints or rock other properties (stage.change): laws of faces, strength of zones. Forces
-/// and stresses go on from what they are.
+/// Gives joints, rock or linings other properties (stage.change): laws of faces, strength of zones,
+/// elasticity and strength of linings. Forces and stresses go on from what they are.
 void change_properties(Simulation& sim, const PropertyChange& change);
+/// The same in the scene alone, of these linings (by row).
+void repeat_change(Scene& scene, const PropertyChange& change,
+                   const std::vector<std::uint8_t>& linings);
 
 /// Removes the rock of these openings (rows of Model::openings). The forces that it had on the
 /// walls become loads, which keep their full value until relax() reduces them.

@@ -27,6 +27,7 @@
 //     varint [m] edge of it; u8 [m] state; u8 [m] broken_by; and the columns
 //     along_a along_b closed | normal_force shear_force | opening | slip |
 //     normal_stress_a normal_stress_b | normal_stress | shear_stress | damage
+//   and, where water flows through joints, water_pressure | head | discharge | aperture
 //   along: where on the edge the ends of the overlap lie, 0 to 1; closed: fraction of it that
 //   carries
 //
@@ -315,6 +316,8 @@ void add_contacts(Bytes& bytes, const std::vector<Touch>& touches, const Grid& c
   group({"normal_stress"});
   group({"shear_stress"});
   group({"damage"});
+  if (contacts.cell_field(water_fields.front()) == nullptr) return;
+  for (const char* name : water_fields) group({name});
 }
 
 /// The displacement since the datum.

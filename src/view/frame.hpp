@@ -2,6 +2,7 @@
 // velocity, rotation and stress, the nodes and stresses of zones, and the contacts by edge.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -11,6 +12,9 @@
 #include "view/mesh.hpp"
 
 namespace edda {
+
+/// Of contacts, in models in which water flows through joints.
+inline constexpr std::array water_fields{"water_pressure", "head", "discharge", "aperture"};
 
 /// How numbers are stored. single: as they are, to seven digits. whole16: as whole numbers of
 /// steps, so that displacements of blocks are right to 1/65534 of the largest in the frame and

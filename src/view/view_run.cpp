@@ -250,10 +250,19 @@ std::string ViewRun::table(const std::string& name, std::size_t most_rows) const
   const Result<std::string> file = read_file(folder_ + "/" + name);
   if (!file.ok()) return {};
   if (name == "history.csv") return with_peaks(file.value(), most_rows);
-  if (name != "bolts.csv") return std::string(complete_rows(file.value()));
+  if (name != "bolts.csv" && name != "linings.csv") return std::string(complete_rows(file.value()));
   std::vector<double> times;
   for (const Taken& t : taken_) times.push_back(t.entry.time);
   return rows_at(file.value(), times);
+}
+
+/// Fields of water in joints are there in frames of a model in which it flows.
+std::vector<std::string> ViewRun::absent() const {
+  std::vector<std::string> names = absent_;
+  for (const char* name : water_fields) {
+    if (!ranges_.contains(name)) names.emplace_back(name);
+  }
+  return names;
 }
 
 std::string ViewRun::header(const std::string& served_as) const {
@@ -263,7 +272,7 @@ std::string ViewRun::header(const std::string& served_as) const {
   if (!served_as.empty()) json.pair("run", served_as);
   json.pair("title", names_.title);
   add_strings(json, "materials", names_.materials);
-  add_strings(json, "absent", absent_);
+  add_strings(json, "absent", absent());
   add_marks(json, "monitors", names_.monitors);
   add_marks(json, "convergences", names_.convergences);
   json.key("frames").open_list();

@@ -102,6 +102,7 @@ class ViewRun {
   ViewNames names_;
   ViewMesh mesh_;
   std::string stamp_;
+  std::vector<std::string> absent() const;
   std::vector<std::string> absent_;  ///< numbers of blocks that these frames do not have
   std::vector<ViewDatum> datums_;
   std::vector<Taken> taken_;
@@ -114,6 +115,7 @@ class ViewRun {
 };
 
 /// Tables that a page contains.
-inline constexpr const char* view_tables[] = {"history.csv", "stages.csv", "bolts.csv"};
+inline constexpr const char* view_tables[] = {"history.csv", "stages.csv", "bolts.csv",
+                                              "linings.csv"};
 
 }  // namespace edda

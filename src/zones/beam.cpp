@@ -79,6 +79,19 @@ BeamForces forces_of(const BeamShape& shape, const BeamState& state, const Stret
   return {shape.axial / l * e[0] - c * mean, {mean - of_shear, mean + of_shear}};
 }
 
+/// The same the other way round.
+Stretch stretch_of(const BeamShape& shape, const BeamState& state, const BeamForces& f) {
+  const double l = state.length, mean = 0.5 * (f.moment[0] + f.moment[1]),
+               longer = (f.axial + state.curvature * mean) * l / shape.axial,
+               bent = mean * l / shape.bending + state.curvature * longer,
+               sheared = 2.0 * (f.moment[1] - f.moment[0]) / (shape.shear * l);
+  return {longer, 0.5 * (sheared - bent), 0.5 * (sheared + bent)};
+}
+
+double stored_by(const BeamForces& f, const Stretch& e) {
+  return 0.5 * (f.axial * e[0] - f.moment[0] * e[1] + f.moment[1] * e[2]);
+}
+
 constexpr double tolerated = 1e-10;  // of a strength
 
 bool exceeds(const SectionStrength& strength, const BeamForces& f) {
@@ -219,6 +232,21 @@ SectionStrength rectangle_strength(double compressive, double tensile, double ar
   return strength;
 }
 
+std::vector<Vec2> outline_of(const SectionStrength& strength) {
+  std::vector<Vec2> corners;
+  if (strength.empty()) return corners;
+  const auto without_moment = [](const SectionLimit& s) { return Vec2{s.limit / s.axial, 0.0}; };
+  corners.push_back(without_moment(strength.front()));
+  for (std::size_t k = 1; k < strength.size(); ++k) {
+    const SectionLimit &a = strength[k - 1], &b = strength[k];
+    const double det = a.axial * b.moment - b.axial * a.moment;
+    corners.push_back({(a.limit * b.moment - b.limit * a.moment) / det,
+                       (a.axial * b.limit - b.axial * a.limit) / det});
+  }
+  corners.push_back(without_moment(strength.back()));
+  return corners;
+}
+
 double utilisation(const SectionStrength& strength, double axial, double moment) {
   double most = 0.0, largest = 0.0;
   for (const SectionLimit& s : strength) largest = std::max(largest, s.limit);
@@ -240,6 +268,23 @@ BeamState beam_at_start(const BeamCorners& x) {
   state.length = state.free.length;
   state.curvature = curvature_of(state.free);
   return state;
+}
+
+double change_shape(const BeamShape& from, const BeamShape& to, const BeamCorners& x,
+                    BeamState& state) {
+  const Stretch before = stretch_of(from, state, state.forces),
+                after = stretch_of(to, state, state.forces);
+  double more = stored_by(state.forces, after) - stored_by(state.forces, before);
+  state.free.length += before[0] - after[0];
+  const BeamForm now = form_of(x);
+  for (std::size_t k = 0; k < 2; ++k) {
+    state.free.turn[k] += before[1 + k] - after[1 + k];
+    const double opened = now.height[k] - state.free.height[k],
+                 opens = from.across / to.across * opened;
+    state.free.height[k] = now.height[k] - opens;
+    more += 0.5 * from.across * opened * (opens - opened);
+  }
+  return more;
 }
 
 BeamResult evaluate_beam(const BeamShape& shape, const SectionStrength& strength,

@@ -64,6 +64,9 @@ using SectionStrength = std::vector<SectionLimit>;
 /// compressive, tensile: f_c and f_t, Pa; area in m2, thickness t in m.
 SectionStrength rectangle_strength(double compressive, double tensile, double area,
                                    double thickness);
+/// Corners of what it allows with M >= 0, from pure compression to pure tension: N in x, M in y;
+/// empty where it allows anything.
+std::vector<Vec2> outline_of(const SectionStrength& strength);
 /// By what N and M would have to be divided to be on the surface; 1 on it.
 double utilisation(const SectionStrength& strength, double axial, double moment);
 
@@ -85,6 +88,11 @@ struct BeamState {
 
 /// Without stress at these places.
 BeamState beam_at_start(const BeamCorners& x);
+
+/// Gives a piece that is there another shape: its form without stress becomes that in which it
+/// carries what it carries. Returns by how much more is stored, J.
+double change_shape(const BeamShape& from, const BeamShape& to, const BeamCorners& x,
+                    BeamState& state);
 
 /// Forces on its corners, N, what is stored, and what its hinges have dissipated since its state
 /// before, by the mean of the forces then and now, J.

@@ -33,10 +33,12 @@ std::vector<Vec2> drawn_nodes(const Meshes& m) {
   return node;
 }
 
-SectionStrength strength_of(const Model& model, const Lining& lining) {
-  if (!lining.compressive_strength) return {};
-  const double compressive = *lining.compressive_strength,
-               tensile = lining.tensile_strength.value_or(lining.area ? compressive : 0.0);
+SectionStrength strength_of(const Model& model, const Lining& lining, const Material& material) {
+  const bool own = lining.compressive_strength.has_value();
+  if (!own && !material.strength) return {};
+  const double compressive = own ? *lining.compressive_strength : material.strength->ucs,
+               tensile = own ? lining.tensile_strength.value_or(lining.area ? compressive : 0.0)
+                             : material.strength->tension;
   const double t = lining.drawn_thickness(), area = model.thickness * t * lining.solidity(),
                both = compressive + tensile;
   // The rectangle with that plastic moment under the thrust at which it is largest.
@@ -52,7 +54,7 @@ std::vector<std::pair<std::uint32_t, std::uint32_t>> neighbours(const Mesh& mesh
   return pairs;
 }
 
-void add_pieces(ZoneModel& zones, const Model& model, const BlockSet& b, std::size_t i) {
+void set_pieces(ZoneModel& zones, const Model& model, const BlockSet& b, std::size_t i) {
   const Lining& lining = model.linings[static_cast<std::size_t>(b.lining[i])];
   const Material& material = model.materials[static_cast<std::size_t>(b.material[i])];
   const double t = lining.drawn_thickness(), sets = b.thickness / lining.spacing;
@@ -62,14 +64,30 @@ void add_pieces(ZoneModel& zones, const Model& model, const BlockSet& b, std::si
   section.area = lining.area ? sets * *lining.area : b.thickness * t;
   section.inertia = lining.inertia ? sets * *lining.inertia : b.thickness * t * t * t / 12.0;
   const std::vector<Vec2> drawn = drawn_nodes(b.meshes);
+  const std::size_t pieces = b.meshes.zone_begin[i + 1] - b.meshes.zone_begin[i];
+  for (std::size_t k = 0; 2 * k < pieces; ++k) {
+    const auto p = static_cast<std::uint32_t>(zones.pair_begin[i] + k);
+    LiningPiece& piece = zones.piece[zones.piece_of_pair[p]];
+    const BeamCorners x = corners_of(b.meshes, zones.pair[p], drawn);
+    piece.shape = beam_shape(section, x, corner_mass(zones, b, p));
+    piece.area = section.area;
+    piece.modulus = 2.0 * section.inertia / t;
+    zones.strength[piece.strength] = strength_of(model, lining, material);
+  }
+}
+
+void add_pieces(ZoneModel& zones, const Model& model, const BlockSet& b, std::size_t i) {
   zones.piece_of_pair.resize(zones.pair.size(), no_piece);
+  const auto strength = static_cast<std::uint32_t>(zones.strength.size());
+  zones.strength.emplace_back();
   for (std::uint32_t p = zones.pair_begin[i]; p < zones.pair.size(); ++p) {
     zones.piece_of_pair[p] = static_cast<std::uint32_t>(zones.piece.size());
-    const BeamCorners x = corners_of(b.meshes, zones.pair[p], drawn);
-    const double mass = corner_mass(zones, b, p);
-    zones.piece.push_back({beam_shape(section, x, mass), static_cast<std::uint32_t>(b.lining[i]),
-                           section.area, 2.0 * section.inertia / t, p});
+    LiningPiece piece;
+    piece.strength = strength;
+    piece.pair = p;
+    zones.piece.push_back(piece);
   }
+  set_pieces(zones, model, b, i);
 }
 
 double highest_square_of_piece(const ZoneModel& zones, const BlockSet& b,

@@ -113,6 +113,20 @@ void find_squares(ZoneModel& zones, const Model& model, const BlockSet& b) {
   }
 }
 
+/// The same of block i alone, a lining.
+void find_squares_of(ZoneModel& zones, const BlockSet& b, std::size_t i) {
+  const std::vector<Vec2> drawn = drawn_nodes(b.meshes);
+  std::fill(zones.square.begin() + b.meshes.begin[i], zones.square.begin() + b.meshes.begin[i + 1],
+            0.0);
+  for (std::uint32_t p = zones.pair_begin[i]; p < zones.pair_begin[i + 1]; ++p) {
+    const double square = highest_square_of_piece(zones, b, drawn, p);
+    for (const std::uint32_t z : zones.pair[p]) {
+      for (const std::uint32_t j : b.meshes.zone[z])
+        zones.square[j] = std::max(zones.square[j], square);
+    }
+  }
+}
+
 /// Fills ZoneModel::group; the last pair fills up the last one.
 void make_groups(ZoneModel& zones, const BlockSet& b) {
   zones.group.resize((zones.pair.size() + pairs_at_once - 1) / pairs_at_once);
@@ -410,7 +424,6 @@ ZoneModel make_zones(const Model& model, const BlockSet& b) {
     if (b.is_lining(i)) add_pieces(zones, model, b, i);
     zones.pair_begin.push_back(static_cast<std::uint32_t>(zones.pair.size()));
   }
-  for (const Lining& lining : model.linings) zones.strength.push_back(strength_of(model, lining));
   if (!zones.piece.empty()) zones.piece_of_pair.resize(zones.pair.size(), no_piece);
   make_groups(zones, b);
   for (const auto& zone : m.zone) {
@@ -459,6 +472,22 @@ Zones zones_at_start(const ZoneModel& zones, const Model& model, const BlockSet&
   evaluate_zones(zones, b, state, {}, 0.0, all);
   all.stored_between = all.stored;
   return all;
+}
+
+void change_lining(ZoneModel& zones, const Model& model, const BlockSet& b, std::size_t i) {
+  set_pieces(zones, model, b, i);
+  find_squares_of(zones, b, i);
+}
+
+void carry_on(const ZoneModel& old, const ZoneModel& zones, const BlockSet& b, std::size_t i,
+              Zones& all) {
+  for (std::uint32_t p = zones.pair_begin[i]; p < zones.pair_begin[i + 1]; ++p) {
+    const std::uint32_t q = zones.piece_of_pair[p];
+    const double more = change_shape(old.piece[q].shape, zones.piece[q].shape,
+                                     corners_of(b.meshes, zones.pair[p], all.place), all.piece[q]);
+    all.stored[p] += more;
+    all.stored_between[p] += more;
+  }
 }
 
 void begin_lining(const ZoneModel& model, const BlockSet& b, const State& s, std::size_t i,

@@ -38,7 +38,7 @@ struct ZoneModel {
   // Linings: each piece is the pair of triangles that it consists of.
   std::vector<std::uint32_t> piece_of_pair;  ///< [pairs] or no_piece; empty: no linings
   std::vector<LiningPiece> piece;
-  std::vector<SectionStrength> strength;  ///< [linings of the model]
+  std::vector<SectionStrength> strength;  ///< [blocks that are linings]
   bool is_piece(std::size_t p) const {
     return !piece_of_pair.empty() && piece_of_pair[p] != no_piece;
   }
@@ -84,6 +84,12 @@ struct PoreWater {
 /// pore pressure (without one the water comes in the first step); strength divided by `factor`.
 Zones zones_at_start(const ZoneModel& zones, const Model& model, const BlockSet& blocks,
                      const State& state, const PoreWater& water, double factor);
+
+/// Gives block i, a lining, the stiffness and strength of its material.
+void change_lining(ZoneModel& zones, const Model& model, const BlockSet& blocks, std::size_t i);
+/// Lets its pieces, which were those of `old`, carry what they carry.
+void carry_on(const ZoneModel& old, const ZoneModel& zones, const BlockSet& blocks, std::size_t i,
+              Zones& all);
 
 /// Begins the pieces of block i, a lining, without stress where they are.
 void begin_lining(const ZoneModel& model, const BlockSet& blocks, const State& state, std::size_t i,

@@ -112,8 +112,8 @@ class Columns(Program):
     def test_a_run_lists_the_columns_of_its_tables(self):
         (self.dir / "m.toml").write_text(MODEL)
         self.expect(0, "run", "m.toml", "-o", "r", "--quiet")
-        tables = ("history.csv", "reactions.csv", "bolts.csv", "stages.csv", "joints_1.csv", "joints_2.csv", "blocks.csv",
-                  "joints.csv")
+        tables = ("history.csv", "reactions.csv", "bolts.csv", "stages.csv", "joints_1.csv", "joints_2.csv", "bolt_summary.csv",
+                  "blocks.csv", "joints.csv")
         columns = self.check_folder(self.dir / "r", *tables)
         for name in ("crown", "side, left"):
             self.assertEqual([columns["history.csv", f"{name}.{of}"][0] for of in OF_MONITOR],

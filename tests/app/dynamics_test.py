@@ -92,6 +92,16 @@ class Dynamics(Program):
         self.assertEqual(sorted({r["bolt"] for r in bolts}), ["1", "B"])
         self.assertEqual(sorted({float(r["time"]) for r in bolts}), [0.0, 0.1, 0.2, 0.3, 0.4])
         self.assertEqual(float(bolts[-1]["axial_force"]), float(bolts[-2]["axial_force"]))
+        for row in self.rows("r/bolt_summary.csv"):
+            of = [r for r in bolts if r["bolt"] == row["bolt"]]
+            largest = max(of, key=lambda r: abs(float(r["axial_force"])))
+            self.assertEqual([row[c] for c in ("largest_force", "time", "distance", "x", "y")],
+                             [largest[c] for c in ("axial_force", "time", "distance", "x", "y")])
+            end = [r for r in of if r["time"] == bolts[-1]["time"]]
+            for column in ("axial_force", "bond_force", "dowel_force", "utilisation"):
+                self.assertEqual(row[column], max((r[column] for r in end), key=lambda cell: abs(float(cell))), column)
+            self.assertEqual(row["yielded"], max(r["yielded"] for r in end))
+        self.assertEqual([r["bolt"] for r in self.rows("r/bolt_summary.csv")], list(dict.fromkeys(r["bolt"] for r in bolts)))
         start = [r for r in bolts if r["bolt"] == "1" and float(r["time"]) == 0.0]
         self.assertAlmostEqual(float(start[0]["axial_force"]), 2e4, delta=1e-6)
 

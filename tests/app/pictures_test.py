@@ -1,4 +1,5 @@
 """edda plot and edda cut, end to end: what is drawn, and what is refused. Usage: pictures_test.py EDDA"""
+import math
 import re
 import unittest
 
@@ -22,6 +23,72 @@ class Pictures(RampProgram):
         for field in "id material displacement velocity rotation stress principal_stress normal_force shear_force opening slip state normal_stress shear_stress none".split():
             self.expect(0, "plot", "m", "--field", field, "--time", "0.005", "-o", "p.svg", "--forces", "--vectors", "velocity")
         self.expect(0, "plot", "m.toml", "-o", "model.png")
+
+    def test_a_model_shows_its_linings_and_zones(self):
+        model = "[materials.rock]\ndensity = 2500\nyoung = 1e9\npoisson = 0.2\n[materials.concrete]\ndensity = 2400\nyoung = 1e10\npoisson = 0.2\n" \
+                "[joints.j]\nfriction_angle = 30\n[contact]\njoint = 'j'\n[domain]\noutline = [[0, 0], [4, 0], [4, 4], [0, 4]]\nmaterial = 'rock'\n" \
+                "[[opening]]\nname = 'o'\nshape = { kind = 'circle', at = [2, 2], width = 2, segments = 12 }\n" \
+                "[[lining]]\nopening = 'o'\nmaterial = 'concrete'\nthickness = 0.1\n[solver]\nduration = 0.01\n"
+        (self.dir / "l.toml").write_text(model)
+        (self.dir / "z.toml").write_text(model + "[zones]\nsize = 0.5\n")
+        for name in ("l", "z"):
+            said = self.expect(0, "cut", name + ".toml", "-o", name + "-cut.svg").stdout
+            self.assertRegex(said, r"blocks +1 \(0 fixed\), 13\b")
+            self.assertRegex(said, r"linings +1\n")
+            self.expect(0, "plot", name + ".toml", "-o", name + ".svg")
+            for picture in (name + "-cut.svg", name + ".svg"):
+                self.assertIn(">concrete</text>", (self.dir / picture).read_text(encoding="utf-8"))
+            self.expect(0, "cut", name + ".toml", "-o", name + ".csv")
+            self.assertEqual({row["material"] for row in read_rows(self.dir / (name + ".csv"))}, {"rock", "concrete"})
+
+    def lined_ring(self):
+        """A ring in vacuum under pressure, whose concrete hardens in the second stage."""
+        line = ", ".join(f"[{4 * math.cos(k * math.pi / 8)}, {4 * math.sin(k * math.pi / 8)}]" for k in [*range(16), 0])
+        damped = "duration = 0.05\ndamping = { local = 0.5 }\n"
+        (self.dir / "r.toml").write_text(
+            "gravity = [0, 0]\n[joints.j]\nfriction_angle = 30\n"
+            + "".join(f"[materials.{name}]\ndensity = 2500\nyoung = {e}e9\npoisson = 0.2\nstrength = {{ ucs = {ucs}e6, tension = 1e6 }}\n"
+                      for name, e, ucs in (("young", 10, 5), ("old", 30, 20)))
+            + f"[[lining]]\nname = 'shell'\nalong = [{line}]\nthickness = 0.3\nsize = 2\nmaterial = 'young'\n[[load]]\nalong = [{line}]\npressure = 1e5\n"
+            + f"[[stage]]\nname = 'soft'\n{damped}[[stage]]\nname = 'hard'\n{damped}change = [{{ material = 'young', to = 'old' }}]\n")
+        self.expect(0, "run", "r.toml", "--quiet")
+
+    def test_thrust_over_moment_within_the_strength_of_each_stage(self):
+        self.lined_ring()
+        self.expect(0, "plot", "r", "--nm", "-o", "nm.csv")
+        rows = read_rows(self.dir / "nm.csv")
+        self.assertEqual(list(rows[0]), ["lining", "at", "of", "thrust", "moment"])
+        for stage, ucs in (("soft", 5e6), ("hard", 20e6)):
+            of = lambda what: [(float(r["thrust"]), float(r["moment"])) for r in rows if r["at"] == stage and r["of"] == what]
+            self.assertEqual(len(of("section")), 32)
+            for thrust, _ in of("section"):
+                self.assertAlmostEqual(thrust / 4e5, 1, delta=0.05)
+            self.assertAlmostEqual(max(n for n, _ in of("strength")), 0.3 * ucs, delta=1)
+            self.assertAlmostEqual(min(n for n, _ in of("strength")), -0.3 * 1e6, delta=1)
+            exact = (ucs + 1e6) * 0.3 ** 2 / 8
+            self.assertTrue(exact <= max(m for _, m in of("strength")) < 1.01 * exact)
+        self.expect(0, "plot", "r", "--nm", "shell", "-o", "nm.svg")
+        picture = (self.dir / "nm.svg").read_text(encoding="utf-8")
+        for text in ("soft", "hard", "thrust (MN)", "shell"):
+            self.assertIn(f">{text}</text>", picture)
+        self.expect(0, "plot", "r", "--nm", "--time", "0.05", "-o", "t.csv")
+        self.assertEqual({r["at"] for r in read_rows(self.dir / "t.csv")}, {"t = 0.05 s"})
+        rows = read_rows(self.dir / "r/linings.csv")
+        for row in rows:
+            stage = "old" if float(row["time"]) > 0.0501 else "young"
+            self.assertTrue(row["material"] == stage or abs(float(row["time"]) - 0.05) < 1e-4, row)
+        self.assertAlmostEqual(float(rows[-1]["utilisation"]), 4e5 / (0.3 * 20e6), delta=0.01)
+
+    def test_thrust_over_moment_refuses_what_is_not_there(self):
+        self.lined_ring()
+        self.expect(0, "run", "m.toml", "--quiet")
+        for words, said in ((["r", "--nm", "floor"], 'no lining "floor"'), (["m", "--nm"], "no linings.csv"),
+                            (["r", "--nm", "--window", "0,0,1,1"], "leave out --scale")):
+            self.assertIn(said, self.expect(2, "plot", *words, "-o", "x.svg").stderr)
+        self.expect(2, "plot", "r", "--nm", "--field", "stress", "-o", "x.svg")
+        self.assertFalse((self.dir / "x.svg").exists())
+        for what in ("thrust", "moment", "shear", "utilisation"):
+            self.expect(0, "plot", "r", "--lining", what, "-o", "x.svg")
 
     def test_plot_compares_times(self):
         self.expect(0, "run", "m.toml")

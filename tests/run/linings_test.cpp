@@ -212,6 +212,50 @@ TEST(Linings, AreRefusedWhereTheyCannotBe) {
   EXPECT_NE(first_fault(yields).find("which beams do not have"), std::string::npos);
 }
 
+/// Concrete of one material that hardens in stages: what is not there yet stays young.
+TEST(Linings, ThatAreNotThereYetDoNotHarden) {
+  const std::string hard =
+      "[materials.hard]\ndensity = 2400\nyoung = 3e10\npoisson = 0.2\n"
+      "strength = { ucs = 20e6, tension = 2e6 }\n";
+  const auto stages = [](const std::string& change) {
+    return "[[stage]]\nduration = 0.005\ninstall = ['shell']\n[[stage]]\nduration = 0.005\n" +
+           std::string("change = [") + change + "]\ninstall = ['second']\n";
+  };
+  const Ran r = ran(hard + lined_hole(stages("{ material = 'concrete', to = 'hard' }")));
+  const Scene& scene = *r.ready.sim.scene;
+  std::size_t seen = 0;
+  for (std::size_t i = 0; i < scene.blocks.size(); ++i) {
+    if (!scene.blocks.is_lining(i)) continue;
+    const bool first = scene.blocks.lining[i] == 0;
+    const LiningPiece& piece =
+        scene.zones.piece[scene.zones.piece_of_pair[scene.zones.pair_begin[i]]];
+    EXPECT_EQ(scene.model.materials[static_cast<std::size_t>(scene.blocks.material[i])].name,
+              first ? "hard" : "concrete");
+    EXPECT_EQ(scene.zones.strength[piece.strength].empty(), !first);
+    EXPECT_NEAR(piece.shape.axial, first ? 0.2 * 3e10 / 0.96 : 0.1 * 2e10 / 0.96, 1.0);
+    ++seen;
+  }
+  EXPECT_EQ(seen, 2u);
+  // Another density, another kind of strength, and the rock's own material.
+  const auto refused = [&](const std::string& material, const std::string& change) {
+    return first_fault("[materials.x]\npoisson = 0.2\n" + material + lined_hole(stages(change)));
+  };
+  EXPECT_NE(refused("density = 2500\nyoung = 3e10\n", "{ material = 'concrete', to = 'x' }")
+                .find("another density"),
+            std::string::npos);
+  EXPECT_NE(
+      refused("density = 2400\nyoung = 3e10\nyield = { friction_angle = 30, cohesion = 1e6 }\n",
+              "{ material = 'concrete', to = 'x' }")
+          .find("which beams do not have"),
+      std::string::npos);
+  std::string shared = lined_hole(stages("{ material = 'rock', to = 'x' }"));
+  for (std::size_t at; (at = shared.find("material = 'concrete'")) != std::string::npos;)
+    shared.replace(at, 21, "material = 'rock'");
+  EXPECT_NE(first_fault("[materials.x]\npoisson = 0.2\ndensity = 2500\nyoung = 3e10\n" + shared)
+                .find("give the lining a material of its own"),
+            std::string::npos);
+}
+
 /// Monitors are where they were when the blocks are numbered the other way round.
 TEST(Linings, ReversedNumbersAreOtherNumbersAlone) {
   const std::string text = lined_hole("[[monitor]]\nname = 'm'\npoint = [2, 7]\n");

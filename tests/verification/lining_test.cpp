@@ -1,5 +1,5 @@
 // Linings against closed-form solutions: beams, their vibration, and a ring under pressure:
-// validation.md rows 81 to 83.
+// validation.md rows 81 to 83 and 90, and linings that harden.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -143,6 +143,134 @@ TEST(Lining, RingUnderPressure) {
   expect_relative({81, "ring", "thrust", "N"}, -forces(sim, 5).axial, pressure * radius, 2e-3);
   expect_relative({81, "ring", "decrease of the radius", "m"}, -middle(sim, 0).x,
                   pressure * radius * mean / axial, 4e-3);
+}
+
+/// A ring under p1, whose concrete becomes as stiff as `later` with the strength given, then under
+/// p2.
+std::string hardening_ring(double first, double second, const std::string& later) {
+  std::string ring = "[";
+  for (int k = 0; k <= 64; ++k) {
+    const double a = 2.0 * pi * (k % 64) / 64;
+    ring +=
+        (k == 0 ? "[" : ", [") + number(4.0 * std::cos(a)) + ", " + number(4.0 * std::sin(a)) + "]";
+  }
+  ring += "]";
+  const auto press = [&](const char* name, double pressure) {
+    return std::string("[[load]]\nname = '") + name + "'\nalong = " + ring +
+           "\npressure = " + number(pressure) + "\n";
+  };
+  const std::string damped = "duration = 0.1\ndamping = { local = 0.5 }\n";
+  return concrete("[materials.hardened]\ndensity = 2500\npoisson = 0.2\n" + later +
+                  lining(ring, "size = 1\nmaterial = 'concrete'\n") + press("first", first) +
+                  press("second", second) + "[[stage]]\n" + damped + "[[stage]]\n" + damped +
+                  "change = [{ material = 'concrete', to = 'hardened' }]\n[[stage]]\n" + damped +
+                  "activate = ['second']\n");
+}
+
+/// Thrusts are p r. Each load meets the stiffness of its time: u = r r_m (p1/E1 + p2/E2)/t.
+TEST(Lining, ConcreteThatHardens) {
+  constexpr double radius = 4.0, mean = radius - 0.5 * thick, p = 1e5, q = 3e5;
+  Result<Model> read =
+      read_model_text(hardening_ring(p, q, "young = 90e9\n"), EDDA_SOURCE_DIR "/scene.toml", {});
+  ASSERT_TRUE(read.ok()) << to_string(read.faults().front());
+  PreparedRun ready = prepare_run(std::move(read.value())).value();
+  const Simulation& sim = ready.sim;
+  std::vector<double> thrust;  // before and after the change
+  RunOptions options;
+  options.after_step = [&] {
+    const double time = sim.motion.state.time;
+    if (time > 0.0999 && time < 0.1001) thrust.push_back(-forces(sim, 5).axial);
+    return false;
+  };
+  const Result<Outcome> outcome = run_model(ready, options);
+  ASSERT_TRUE(outcome.ok());
+  EXPECT_LT(std::abs(outcome.value().energy.error), 1e-6);
+  ASSERT_GE(thrust.size(), 2u);
+  for (const double f : thrust) EXPECT_NEAR(f, p * radius, 2e-3 * p * radius);
+  expect_relative({81, "ring that hardens", "thrust", "N"}, -forces(sim, 5).axial, (p + q) * radius,
+                  2e-3);
+  expect_relative({81, "ring that hardens", "decrease of the radius", "m"},
+                  0.5 * (middle(sim, 32).x - middle(sim, 0).x),
+                  (p + q / 3.0) * radius * mean / axial, 4e-3);
+}
+
+/// Its sections have the strength of the material that they have by then.
+TEST(Lining, StrengthHardensToo) {
+  constexpr double radius = 4.0, p = 1e5, q = 3e5, demand = (p + q) * radius;
+  for (const double part : {0.75, 4.0}) {
+    const double ucs = part * demand / thick;
+    const PreparedRun ready = settled(hardening_ring(
+        p, q, "young = 30e9\nstrength = { ucs = " + number(ucs) + ", tension = 1e5 }\n"));
+    const SectionStrength& strength = ready.sim.scene->zones.strength.front();
+    double used = 0.0, least = 1.0;
+    for (const BeamState& piece : ready.sim.motion.zones.piece) {
+      for (const double moment : piece.forces.moment)
+        used = std::max(used, utilisation(strength, piece.forces.axial, moment));
+      least = std::min(least, piece.free.length / piece.length);
+    }
+    EXPECT_NEAR(used, std::min(1.0, 1.0 / part), part < 1.0 ? 1e-6 : 2e-2) << part;
+    EXPECT_EQ(least < 0.999, part < 1.0) << part;  // it has been squeezed
+  }
+}
+
+/// The period in which a free ring of mean radius r swings as an oval, under a pressure p on its
+/// outer face that turns with it, Pa.
+double ovalling_period(double pressure, double r, double t) {
+  const double outer = r + 0.5 * t;
+  std::string ring = "[";
+  for (int k = 0; k <= 64; ++k) {
+    const double a = 2.0 * pi * (k % 64) / 64;
+    ring += (k == 0 ? "[" : ", [") + number(outer * std::cos(a)) + ", " +
+            number(outer * std::sin(a)) + "]";
+  }
+  ring += "]";
+  const std::string load = "[[load]]\nalong = " + ring + "\npressure = " + number(pressure) + "\n";
+  const auto pinch = [&](double x) {
+    return std::string("[[load]]\nname = '") + (x > 0.0 ? "right" : "left") + "'\npoint = [" +
+           number(x) + ", 0]\nforce = [" + number(x > 0.0 ? -100.0 : 100.0) + ", 0]\n";
+  };
+  const std::string model =
+      concrete("[[lining]]\nalong = " + ring + "\nsize = 1\nthickness = " + number(t) + "\n" +
+               (pressure > 0.0 ? load : "") + pinch(r) + pinch(-r) +
+               "[[stage]]\nduration = 0.1\ndamping = { local = 0.5 }\n"
+               "[[stage]]\ndeactivate = ['left', 'right']\nduration = 0.9\n");
+  Result<Model> read = read_model_text(model, EDDA_SOURCE_DIR "/scene.toml", {});
+  EXPECT_TRUE(read.ok()) << to_string(read.faults().front());
+  PreparedRun ready = prepare_run(std::move(read.value())).value();
+  std::vector<double> crossings;
+  double before = 0.0, time_before = 0.0;
+  RunOptions options;
+  options.after_step = [&] {
+    double oval = 0.0;  // the part of the radial displacement in cos 2a
+    for (std::uint32_t k = 0; k < 64; ++k) {
+      const double a = 2.0 * pi * k / 64;
+      oval += std::cos(2.0 * a) * dot(middle(ready.sim, k), Vec2{std::cos(a), std::sin(a)});
+    }
+    const double now = ready.sim.motion.state.time;
+    if (now > 0.1 && before * oval < 0.0)
+      crossings.push_back(time_before + (now - time_before) * before / (before - oval));
+    before = oval;
+    time_before = now;
+    return false;
+  };
+  EXPECT_TRUE(run_model(ready, options).ok());
+  EXPECT_GE(crossings.size(), 3u);
+  if (crossings.size() < 2) return 0.0;
+  return 2.0 * (crossings.back() - crossings.front()) / double(crossings.size() - 1);
+}
+
+/// A thin ring swings as an oval with omega^2 = 7.2 EI/(m r^4) (1 - p/p_c), and buckles under a
+/// pressure that turns with its face at p_c = 3 EI/r^3.
+TEST(Lining, RingBuckles) {
+  constexpr double radius = 4.0, t = 0.1, stiff = in_plane * t * t * t / 12.0;
+  constexpr double critical = 3.0 * stiff / (radius * radius * radius);
+  const double square = 7.2 * stiff / (density * t * std::pow(radius, 4));
+  const double alone = ovalling_period(0.0, radius, t),
+               pressed = ovalling_period(0.5 * critical, radius, t);
+  expect_relative({90, "", "period as an oval", "s"}, alone, 2.0 * pi / std::sqrt(square), 1e-2);
+  const double left = std::pow(alone / pressed, 2);
+  expect_relative({90, "", "critical pressure", "Pa"}, 0.5 * critical / (1.0 - left), critical,
+                  1e-2);
 }
 
 /// A beam on two supports under a force at its middle becomes a mechanism at P = 4 M_p/L, with M_p

@@ -315,6 +315,132 @@ test('has all of its legend in small windows, with strokes as long as they are d
   await p.close();
 });
 
+const lined = `
+[materials.rock]
+density = 2600
+young = "2 GPa"
+poisson = 0.25
+[materials.concrete]
+density = 2400
+young = "20 GPa"
+poisson = 0.2
+strength = { ucs = "20 MPa", tension = "2 MPa" }
+[joints.j]
+friction_angle = 35
+kn = "20 GPa/m"
+[contact]
+joint = "j"
+[domain]
+outline = [[-8, -8], [8, -8], [8, 8], [-8, 8]]
+material = "rock"
+[[joint_set]]
+angle = 40
+spacing = 2
+[[opening]]
+name = "tunnel"
+shape = { kind = "circle", at = [0, 0], width = 5 }
+[[lining]]
+name = "shell"
+opening = "tunnel"
+material = "concrete"
+thickness = "20 cm"
+[initial_stress]
+k0 = 0.6
+surface_y = 60
+[[boundary]]
+type = "fixed"
+sides = ["left", "right", "bottom", "top"]
+[[stage]]
+until = "equilibrium"
+`;
+
+test('draws forces of linings across them, positive on the side of the wall', async () => {
+  writeFileSync(path.join(folder, 'lined.toml'), lined);
+  run('run', 'lined.toml', '--quiet');
+  run('view', 'lined');
+  const p = await page('lined.html');
+  assert.ok(await p.locator('#lining').isVisible());
+  await p.keyboard.press('End');
+  await p.waitForFunction(() => edda.shown === edda.player.end);
+  const rows = table('lined/linings.csv');
+  const last = rows.filter((r) => r.time === rows[rows.length - 1].time);
+  for (const quantity of ['thrust', 'moment', 'shear', 'utilisation']) {
+    await choose(p, 'lining', quantity);
+    const { tips, extent, size, origin } = await p.evaluate(() => {
+      const { liningRims: layer, blockSize, pose } = edda.view;
+      const { extent } = edda.results.linings;
+      return { tips: Array.from(layer.ends.subarray(0, 4 * layer.count)), extent, size: blockSize, origin: pose.origin };
+    });
+    assert.equal(tips.length, 2 * last.length);
+    assert.ok(Math.abs(extent - 4.8) < 0.05);
+    const largest = Math.max(...rows.map((r) => Math.abs(Number(r[quantity]))));
+    assert.ok(largest > 0);
+    last.forEach((r, k) => {
+      const [dx, dy] = [tips[2 * k] + origin[0] - r.x, tips[2 * k + 1] + origin[1] - r.y];
+      const out = (dx * r.x + dy * r.y) / Math.hypot(r.x, r.y);
+      const wanted = (0.2 * extent * Number(r[quantity])) / largest;
+      assert.ok(Math.abs(out - wanted) < 0.02 * size, `${quantity}: ${out}, not ${wanted}`);
+    });
+  }
+  await choose(p, 'lining', 'none');
+  assert.equal(await p.evaluate(() => edda.view.liningRims.count), 0);
+  await p.close();
+  const plain = await page('cavern.html');
+  assert.ok(!(await plain.locator('#lining').isVisible()));
+  assert.equal(await plain.locator('#field option[value=water_pressure]').count(), 0);
+  await plain.close();
+});
+
+const wet = `
+[flow]
+[materials.rock]
+density = 2600
+young = "5 GPa"
+poisson = 0.25
+[joints.j]
+friction_angle = 40
+kn = "20 GPa/m"
+aperture = "0.2 mm"
+[contact]
+joint = "j"
+[domain]
+outline = [[0, 0], [6, 0], [6, 4], [0, 4]]
+material = "rock"
+[[joint_set]]
+angle = 0
+spacing = 1
+[[joint_set]]
+angle = 90
+spacing = 1
+[[water]]
+table = [[-1, 4], [7, 2]]
+[[boundary]]
+type = "fixed"
+sides = ["bottom"]
+[solver]
+duration = 0.01
+`;
+
+test('draws water in joints along them', async () => {
+  writeFileSync(path.join(folder, 'wet.toml'), wet);
+  run('run', 'wet.toml', '--quiet');
+  run('view', 'wet');
+  const p = await page('wet.html');
+  for (const field of ['water_pressure', 'head', 'discharge', 'aperture']) {
+    await choose(p, 'field', field);
+    const { drawn, values, range } = await p.evaluate((f) => ({
+      drawn: edda.view.contactDots.count,
+      values: Array.from(edda.frame.contacts[f === 'water_pressure' ? 'waterPressure' : f]),
+      range: edda.results.run.fields.find((of) => of.name === f).range,
+    }), field);
+    const sizes = field === 'discharge' ? values.map(Math.abs) : values;
+    assert.ok(drawn > 20 && range[1] > range[0], `${field}: ${drawn} lines, ${range}`);
+    const step = Math.max(...range.map(Math.abs)) / 127;
+    assert.ok(Math.max(...sizes) <= range[1] + step && Math.min(...sizes) >= range[0] - step, field);
+  }
+  await p.close();
+});
+
 test('nothing was said to the console, nothing asked of the network', () => {
   assert.deepEqual(faults, []);
 });

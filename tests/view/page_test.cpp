@@ -195,7 +195,8 @@ TEST_F(ViewPage, TellsUsualStrokesAndWhatFramesHaveNot) {
   std::erase_if(header, [](char c) { return c == ' ' || c == '\n'; });
   EXPECT_NE(header.find("\"served\":true,\"run\":\"1\","), std::string::npos) << header;
   EXPECT_NE(header.find("\"absent\":[\"overstress\",\"plastic_strain\",\"yields\","
-                        "\"strength_factor\",\"pore_pressure\"],"),
+                        "\"strength_factor\",\"pore_pressure\",\"water_pressure\",\"head\","
+                        "\"discharge\",\"aperture\"],"),
             std::string::npos)
       << header;
   // Of block 0 alone: (-1 + 2)/2 MPa in the middle, a circle of hypot(1.5, 0.4) MPa.

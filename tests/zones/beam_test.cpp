@@ -258,6 +258,49 @@ TEST(Beam, StrengthOfARectangle) {
               1.0, 1e-12);
 }
 
+/// All of its corners are at the limit, and the first and last are those of thrust alone.
+TEST(Beam, OutlineOfAStrength) {
+  constexpr double compressive = 20e6, tensile = 2e6, area = deep * thick;
+  const SectionStrength s = rectangle_strength(compressive, tensile, area, thick);
+  const std::vector<Vec2> corners = outline_of(s);
+  ASSERT_EQ(corners.size(), s.size() + 1);
+  EXPECT_NEAR(corners.front().x, -compressive * area, 1.0);
+  EXPECT_NEAR(corners.back().x, tensile * area, 1.0);
+  double largest = 0.0;
+  for (const Vec2 c : corners) {
+    EXPECT_NEAR(utilisation(s, c.x, c.y), 1.0, 1e-9);
+    largest = std::max(largest, c.y);
+  }
+  const double exact = 0.125 * (compressive + tensile) * area * thick;
+  EXPECT_GE(largest, exact);
+  EXPECT_LT(largest, 1.01 * exact);
+  EXPECT_TRUE(outline_of({}).empty());
+}
+
+/// A piece that becomes stiffer carries what it has carried, and stores less by what its forces had
+/// stretched it.
+TEST(Beam, AnotherShapeCarriesOn) {
+  const double r = 4.0;
+  const BeamCorners at{Vec2{r, 0.0}, Vec2{r * std::cos(0.2), r * std::sin(0.2)},
+                       Vec2{(r - thick) * std::cos(0.2), (r - thick) * std::sin(0.2)},
+                       Vec2{r - thick, 0.0}};
+  BeamSection stiffer = section;
+  stiffer.young *= 3.0;
+  stiffer.shear_modulus *= 2.0;
+  const BeamShape from = beam_shape(section, at, mass), to = beam_shape(stiffer, at, mass);
+  BeamCorners x = at;
+  for (std::size_t c = 0; c < x.size(); ++c)
+    x[c] += 1e-4 * Vec2{std::sin(1.0 + 3.0 * double(c)), std::cos(2.0 * double(c))};
+  BeamState state = beam_at_start(at);
+  const BeamResult before = evaluate_beam(from, {}, x, state);
+  const double more = change_shape(from, to, x, state);
+  const BeamResult after = evaluate_beam(to, {}, x, state);
+  for (std::size_t c = 0; c < x.size(); ++c)
+    EXPECT_LT(norm(after.force[c] - before.force[c]), 1e-6 * norm(before.force[c])) << c;
+  EXPECT_NEAR(after.stored, before.stored + more, 1e-9 * before.stored);
+  EXPECT_LT(after.stored, 0.6 * before.stored);
+}
+
 /// On any path forces stay within the strength, and what is put in is stored or dissipated.
 TEST(Beam, HingesKeepToTheStrengthAndDissipate) {
   const BeamCorners drawn{Vec2{0, 0}, Vec2{0.8, 0}, Vec2{0.8, 0.3}, Vec2{0, 0.3}};

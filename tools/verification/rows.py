@@ -383,8 +383,8 @@ ROWS = (
         "It slides from rest as with 15 deg from the beginning. Nothing moves by the change, and the load meets the new stiffness."),
     Row(81, "Linings as beams",
         "Cantilevers of a lining, straight in 16 pieces and as a quarter circle in 96, with their ends glued into rock; a ring of 64"
-        " pieces under pressure from outside.",
-        "Deflection with shear; thrust p r and closure p r^2/EA.",
+        " pieces under pressure from outside, and one whose concrete becomes three times as stiff between two pressures.",
+        "Deflection with shear; thrust p r and closure p r^2/EA, of each pressure with the stiffness of its time.",
         "The ring is a polygon, a thousandth smaller than its circle."),
     Row(82, "Vibration of a lining",
         "A cantilever 20 times as long as thick swings freely after a push.",
@@ -405,6 +405,11 @@ ROWS = (
     Row(87, "Fill between walls that close",
         "Two walls close by 5 mm, fill of 10 m length is placed between them, and they close by another 2 mm.",
         "The stress of 2 mm in fill, joints, walls and springs in a row."),
+    Row(90, "A ring that buckles",
+        "A free ring of 64 pieces, a fortieth as thick as its radius, is pinched and let go: it swings as an oval, without and under"
+        " half of the critical pressure on its outer face.",
+        "omega^2 = 7.2 EI/(m r^4) (1 - p/p_c) (Love 1927); p_c = 3 EI/r^3 of a pressure that turns with its face (Levy 1884)."
+        " The critical pressure follows from the two periods."),
     Row(92, "Uplift under a dam",
         "A dam 20 m wide on one joint has 15 m of water before it and 3 m behind it, without drains and with drain holes 4 m behind its"
         " heel.",

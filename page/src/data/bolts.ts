@@ -2,7 +2,8 @@
 import type { Table } from './table';
 
 export interface BoltNode {
-  bolt: string;
+  /** Name of the bolt. */
+  chain: string;
   x: number;
   y: number;
   /** Axial force at the node, N per bolt, tension positive. */
@@ -33,7 +34,7 @@ export class BoltRows {
         this.nodes.push([]);
       }
       this.nodes[this.nodes.length - 1].push({
-        bolt: String(bolt[k]), x: Number(x[k]), y: Number(y[k]), force: Number(force[k]),
+        chain: String(bolt[k]), x: Number(x[k]), y: Number(y[k]), force: Number(force[k]),
         utilisation: Number(used[k]), yielded: yielded[k] === 1, ruptured: ruptured[k] === 1,
       });
       largest = Math.max(largest, Math.abs(Number(force[k])));

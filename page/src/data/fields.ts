@@ -57,9 +57,13 @@ const ofContacts: Record<string, (c: Contacts) => ArrayLike<number>> = {
   normal_stress: (c) => c.normalStress,
   shear_stress: (c) => c.shearStress,
   damage: (c) => c.damage,
+  water_pressure: (c) => c.waterPressure,
+  head: (c) => c.head,
+  discharge: (c) => c.discharge.map(Math.abs),
+  aperture: (c) => c.aperture,
 };
 /** Drawn as lines along the faces; the others as dots. */
-const alongFaces = ['normal_stress', 'shear_stress', 'damage'];
+const alongFaces = ['normal_stress', 'shear_stress', 'damage', 'water_pressure', 'head', 'discharge', 'aperture'];
 
 /** A field's label without its sign convention, where there is no room for it. */
 export const withoutSign = (label: string) => label.replace(/ \((tension|compression) positive\)$/, '');

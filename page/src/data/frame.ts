@@ -34,6 +34,11 @@ export interface Contacts {
   shearStress: Float32Array;
   /** Part of the strength that is lost. */
   damage: Float32Array;
+  /** Where water flows through joints, else of nothing: Pa, m, m2/s from a to b, m. */
+  waterPressure: Float32Array;
+  head: Float32Array;
+  discharge: Float32Array;
+  aperture: Float32Array;
 }
 
 export interface Frame {
@@ -196,7 +201,9 @@ function readContacts(r: Reader, columns: Columns, count: number, mesh: Beginnin
   const [normalStress] = group(1);
   const [shearStress] = group(1);
   const [damage] = group(1);
-  return { count, i, j, edge, alongA, alongB, closed, state, broken, normal, shear, opening, slip, stressA, stressB, normalStress, shearStress, damage };
+  const wet = r.left > 0;
+  const [waterPressure, head, discharge, aperture] = Array.from({ length: 4 }, () => (wet ? group(1)[0] : new Float32Array(0)));
+  return { count, i, j, edge, alongA, alongB, closed, state, broken, normal, shear, opening, slip, stressA, stressB, normalStress, shearStress, damage, waterPressure, head, discharge, aperture };
 }
 
 /** The arrays behind a frame, to hand over without a copy. */

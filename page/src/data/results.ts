@@ -1,5 +1,6 @@
 // Everything of a run but its frames: names, mesh, datums, tables.
 import { BoltRows } from './bolts';
+import { LiningRows } from './linings';
 import { type Motion, readMotion } from './frame';
 import { type Mesh, readMesh } from './mesh';
 import type { Run } from './run';
@@ -19,13 +20,14 @@ export interface Results {
   history?: Table;
   stages: Stage[];
   bolts: BoltRows;
+  linings: LiningRows;
 }
 
 export async function readResults(source: Source): Promise<Results> {
   const run = await source.run();
   const bytes = await source.chunk('mesh');
   if (bytes === undefined) throw new Error('the page holds no blocks');
-  const results: Results = { run, mesh: readMesh(bytes), datums: [], stages: [], bolts: new BoltRows(undefined) };
+  const results: Results = { run, mesh: readMesh(bytes), datums: [], stages: [], bolts: new BoltRows(undefined), linings: new LiningRows(undefined) };
   await refresh(source, results);
   return results;
 }
@@ -41,6 +43,7 @@ export async function refresh(source: Source, results: Results): Promise<void> {
   }
   results.history = await text('history.csv');
   results.bolts = new BoltRows(await text('bolts.csv'));
+  results.linings = new LiningRows(await text('linings.csv'));
   results.stages = stagesOf(await text('stages.csv'));
 }
 

@@ -59,7 +59,7 @@ export interface Run {
   cracked: boolean;
   fields: Field[];
   /** Numbers of blocks that the frames have not, or that mean nothing in this run. */
-  absent: ('omega' | 'rotation' | 'overstress' | 'plastic_strain' | 'yields' | 'strength_factor' | 'pore_pressure')[];
+  absent: string[];
   /** What strokes of the usual length stand for, in all frames: N, Pa, Pa; pressures are those at the ends of faces. */
   usual: { force: number; stress: number; pressure: number };
   /** The largest in all frames; `tension` is that of the pressures that are none. */

@@ -35,7 +35,7 @@ export function readTable(text: string): Table {
   const lines = linesOf(text);
   const names = cells(lines[0] ?? '');
   const columns: (number | string)[][] = names.map(() => []);
-  const isText = names.map((name) => name === 'bolt' || name === 'name');
+  const isText = names.map((name) => name === 'bolt' || name === 'lining' || name === 'name');
   for (const line of lines.slice(1)) {
     const row = cells(line);
     if (row.length !== names.length) continue; // a row that is being written

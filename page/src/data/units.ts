@@ -3,7 +3,7 @@
 const PREFIXES: [string, number][] = [
   ['G', 1e9], ['M', 1e6], ['k', 1e3], ['', 1], ['m', 1e-3], ['\u00b5', 1e-6], ['n', 1e-9],
 ];
-const WITH_PREFIX = new Set(['m', 'Pa', 'N', 'm/s', 'J']);
+const WITH_PREFIX = new Set(['m', 'Pa', 'N', 'N m', 'm/s', 'J']);
 
 export interface Scaled {
   unit: string;

@@ -2,6 +2,7 @@
 import type { BoltNode } from '../data/bolts';
 import { LONGEST_BEYOND } from '../data/ends';
 import { contactValues, isAlongFaces, length as lengthOf, principal } from '../data/fields';
+import type { LiningEnd } from '../data/linings';
 import type { Contacts, Frame } from '../data/frame';
 import type { Mesh } from '../data/mesh';
 import type { Scale } from '../data/scale';
@@ -152,12 +153,34 @@ export function drawArrows(layer: Strokes, x: Float32Array, y: Float32Array, pos
   layer.upload();
 }
 
+/** A force along linings, across them, positive on the side of the wall; `height`: m of the largest. */
+export function drawLinings(areas: Areas, rims: Strokes, ends: LiningEnd[], places: Float64Array, largest: number, height: number, c: Palette): void {
+  areas.clear();
+  rims.clear(ends.length);
+  const [red, green, blue] = c.compression;
+  for (let k = 0; k + 1 < ends.length && largest > 0; k += 2) {
+    const [ax, ay, bx, by] = places.subarray(2 * k, 2 * k + 4);
+    const size = lengthOf(bx - ax, by - ay) || 1;
+    const [nx, ny] = [(by - ay) / size, (ax - bx) / size];
+    const [u, v] = [ends[k].value, ends[k + 1].value].map((value) => (height * value) / largest);
+    const [p, q]: [number, number][] = [[ax + u * nx, ay + u * ny], [bx + v * nx, by + v * ny]];
+    // Where the sign changes within the piece it is two triangles.
+    const s = u / (u - v);
+    const zero: [number, number] = [ax + s * (bx - ax), ay + s * (by - ay)];
+    const rings = u * v < 0 ? [[[ax, ay], zero, p], [zero, [bx, by], q]] : [[[ax, ay], [bx, by], q, p]];
+    for (const ring of rings) areas.add(ring as [number, number][], [red, green, blue], 90);
+    rims.add(...p, ...q, 1.5, red, green, blue);
+  }
+  areas.upload();
+  rims.upload();
+}
+
 /** Bars of the bolts, thicker and redder where they bear more; `places`: x and y of each node. */
 export function drawBolts(layer: Strokes, nodes: BoltNode[], places: Float64Array, c: Palette): void {
   layer.clear(2 * nodes.length);
   for (let k = 0; k + 1 < nodes.length; ++k) {
     const [a, b] = [nodes[k], nodes[k + 1]];
-    if (a.bolt !== b.bolt) continue;
+    if (a.chain !== b.chain) continue;
     const used = Math.min(1, Math.max(a.utilisation, b.utilisation));
     const [r, g, blue] = c.ink.map((v, i) => v + used * (c.tension[i] - v));
     const at = [places[2 * k], places[2 * k + 1], places[2 * k + 2], places[2 * k + 3]] as const;

@@ -1,5 +1,6 @@
 // The drawing: layers over blocks, redrawn once per frame of the screen when something has changed.
 import type { BoltNode } from '../data/bolts';
+import type { LiningEnd } from '../data/linings';
 import type { Frame, Motion } from '../data/frame';
 import type { Mesh } from '../data/mesh';
 import type { Scale } from '../data/scale';
@@ -35,6 +36,11 @@ export interface Shown {
   /** Value of the longest arrow. */
   largestVector: number;
   bolts: BoltNode[];
+  /** A force along linings, and its largest size in all frames. */
+  linings: LiningEnd[];
+  largestOfLinings: number;
+  /** m, of that size. */
+  heightOfLinings: number;
 }
 
 export interface Theme extends layers.Palette {
@@ -71,6 +77,9 @@ export class View {
   private readonly blockSize: number;
   private readonly colours: Float32Array;
   private readonly boltPlaces: BoltPlaces;
+  private readonly liningAreas: Areas;
+  private readonly liningRims: Strokes;
+  private readonly liningPlaces: BoltPlaces;
   private shown?: Shown;
 
   constructor(readonly canvas: HTMLCanvasElement, private readonly mesh: Mesh, private theme: Theme) {
@@ -90,6 +99,9 @@ export class View {
     this.arrowStrokes = new Strokes(gl, 4);
     this.boltStrokes = new Strokes(gl);
     this.boltPlaces = new BoltPlaces(mesh);
+    this.liningAreas = new Areas(gl);
+    this.liningRims = new Strokes(gl);
+    this.liningPlaces = new BoltPlaces(mesh);
     this.blockSize = typicalSize(mesh);
     gl.enable(gl.BLEND);
     gl.blendFuncSeparate(gl.SRC_ALPHA, gl.ONE_MINUS_SRC_ALPHA, gl.ONE, gl.ONE_MINUS_SRC_ALPHA);
@@ -120,6 +132,8 @@ export class View {
     }
     const places = this.boltPlaces.of(shown.bolts, frame, shown.datum, shown.magnification, this.pose);
     layers.drawBolts(this.boltStrokes, shown.bolts, places, theme);
+    const along = this.liningPlaces.of(shown.linings, frame, shown.datum, shown.magnification, this.pose);
+    layers.drawLinings(this.liningAreas, this.liningRims, shown.linings, along, shown.largestOfLinings, shown.heightOfLinings, theme);
   }
 
   draw(): void {
@@ -150,14 +164,17 @@ export class View {
     }
     if (shown.contacts) this.contactDots.draw(view);
     if (shown.vectors !== 'none') this.arrowStrokes.draw(view);
+    this.liningAreas.draw(view);
+    this.liningRims.draw(view);
     this.boltStrokes.draw(view);
   }
 
   /** What a pixel of a stroke stands for. */
-  valuePerPixel(of: 'forces' | 'pressures' | 'crosses' | 'arrows'): number {
+  valuePerPixel(of: 'forces' | 'pressures' | 'crosses' | 'arrows' | 'linings'): number {
     const px = this.blockSize * this.camera.scale;
     if (of === 'forces') return (this.shown?.usualForce ?? 0) / (FORCE * px);
     if (of === 'pressures') return (this.shown?.usualPressure ?? 0) / (PRESSURE * px);
+    if (of === 'linings') return (this.shown?.largestOfLinings ?? 0) / ((this.shown?.heightOfLinings ?? 1) * this.camera.scale);
     if (of === 'crosses') return (this.shown?.usualStress ?? 0) / (CROSS * px);
     return (this.shown?.largestVector ?? 0) / (ARROW * px);
   }

@@ -4,6 +4,7 @@ import { contactValues, isAlongFaces, isKnown, length, withoutSign } from '../da
 import type { Frame } from '../data/frame';
 import type { Results } from '../data/results';
 import type { Field } from '../data/run';
+import { QUANTITIES, type Quantity } from '../data/linings';
 import { brief, scaledUnit } from '../data/units';
 import type { Vectors } from '../scene/view';
 import { byId, make } from './dom';
@@ -28,6 +29,8 @@ export class Controls {
     this.chooseRange();
     byId('cracks').parentElement!.hidden = !results.run.cracked && !results.run.served;
     byId('bolts').parentElement!.hidden = !results.bolts.any && !results.run.served;
+    byId('lining').parentElement!.hidden = !results.linings.any && !results.run.served;
+    byId('lining').append(...QUANTITIES.map((q) => make('option', q, { value: q })));
     byId('marks').parentElement!.hidden = results.run.monitors.length + results.run.convergences.length === 0;
     this.listen();
     this.showMagnification();
@@ -55,6 +58,9 @@ export class Controls {
   }
   get bolts(): boolean {
     return checkbox('bolts');
+  }
+  get lining(): Quantity | undefined {
+    return QUANTITIES.find((q) => q === byId<HTMLSelectElement>('lining').value);
   }
   get marks(): boolean {
     return checkbox('marks');
@@ -178,7 +184,7 @@ export class Controls {
   }
 
   private listen(): void {
-    for (const id of ['field', 'range', 'vectors', 'edges', 'contacts', 'forces', 'cracks', 'crosses', 'bolts', 'marks', 'axes', 'low', 'high']) {
+    for (const id of ['field', 'range', 'vectors', 'lining', 'edges', 'contacts', 'forces', 'cracks', 'crosses', 'bolts', 'marks', 'axes', 'low', 'high']) {
       byId(id).addEventListener('change', () => {
         if (id === 'range') this.rangeIsChosen = true;
         if (id === 'field') this.chooseRange();

@@ -50,6 +50,10 @@ void check_layer(const Value& on, const Lining& lining, Reading& reading) {
 }
 
 void check_strength(const Value* node, const Lining& lining, Reading& reading) {
+  const auto& materials = reading.model.materials;
+  const bool has_strength =
+      lining.compressive_strength ||
+      (lining.material != none && materials[static_cast<std::size_t>(lining.material)].strength);
   const auto belongs = [&](const char* key, bool there, const char* to) {
     if (there || !given(node, key)) return;
     add_fault(reading, find(node, key)->place, lining.where.key + "." + key, to,
@@ -57,7 +61,7 @@ void check_strength(const Value* node, const Lining& lining, Reading& reading) {
   };
   belongs("tensile_strength", lining.compressive_strength.has_value(),
           "belongs to a compressive_strength");
-  belongs("plastic_moment", lining.area && lining.compressive_strength,
+  belongs("plastic_moment", lining.area && has_strength,
           "belongs to the area and compressive_strength of steel sets");
 }
 

@@ -129,15 +129,38 @@ void complete_excavation(const Value* own, Stage& stage, std::map<std::string, d
   }
 }
 
+/// Whether linings have this material at some time: one of their own, or one that they change to.
+bool is_of_linings(const Model& model, Index row) {
+  std::set<Index> rows;
+  for (const Lining& lining : model.linings) rows.insert(lining.material);
+  for (const Stage& stage : model.stages) {
+    for (const PropertyChange& change : stage.change) {
+      if (change.material != none && rows.contains(change.material)) rows.insert(change.row);
+    }
+  }
+  return rows.contains(row);
+}
+
+/// What a lining cannot do: have another mass, or yield as rock.
+void check_materials_of_linings(const Material& from, const Material& to, const Value* own,
+                                const Where& where, Reading& reading) {
+  if (from.density != to.density) {
+    add_fault(reading, place_of(own, "to"), where.key + ".to",
+              fmt::format("\"{}\" has another density than \"{}\"", to.name, from.name),
+              "a lining keeps its mass: give both the same density");
+  } else if (to.yield || to.foliation) {
+    add_fault(
+        reading, place_of(own, "to"), where.key + ".to",
+        fmt::format("\"{}\" has a yield or a foliation, which beams do not have", to.name),
+        "give the lining a material without, and its strength = { ucs = ..., tension = ... }");
+  }
+}
+
 /// What a change asks for that the rest of the run cannot give: material that deforms otherwise,
 /// laws that remember more than slip.
 void check_materials(const Material& from, const Material& to, const Value* own, const Where& where,
                      Reading& reading) {
-  const bool alike = from.density == to.density && from.young == to.young &&
-                     from.poisson == to.poisson && from.foliation == to.foliation &&
-                     from.damping == to.damping && from.pore_pressure == to.pore_pressure &&
-                     from.deformation == to.deformation;
-  if (!alike) {
+  if (!from.deforms_as(to)) {
     add_fault(reading, place_of(own, "to"), where.key + ".to",
               fmt::format("\"{}\" has another density, young, poisson, foliation, damping, "
                           "pore_pressure or deformation than \"{}\"",
@@ -185,7 +208,8 @@ void complete_change(const Value* own, PropertyChange& change, Reading& reading)
     if (joints) {
       check_laws(model.joints[a], model.joints[b], own, change.where, reading);
     } else {
-      check_materials(model.materials[a], model.materials[b], own, change.where, reading);
+      (is_of_linings(model, from) ? check_materials_of_linings : check_materials)(
+          model.materials[a], model.materials[b], own, change.where, reading);
     }
   }
   if (given(own, "around") != given(own, "distance")) {

@@ -146,12 +146,22 @@ class Results:
         return read_table(self._file("bolts.csv"))
 
     @property
+    def bolt_summary(self) -> Table:
+        """A row per bolt at the end of the run; of a model with bolts.
+
+        bolt (name), largest_force (N, one bolt, tension positive) of all nodes and frames, with its time (s), distance (m from
+        the head) and x, y (m); axial_force, dowel_force (N), bond_force (N/m) that are largest at the end; utilisation;
+        bond_slipped, yielded, ruptured (1 or 0, anywhere).
+        """
+        return read_table(self._file("bolt_summary.csv"))
+
+    @property
     def linings(self) -> Table:
         """Two rows per piece of each lining and frame, its ends; of a model with linings.
 
         time (s), lining (name or number), piece, distance (m along it), x, y (m); thrust (N, compression positive), moment
         (N m, positive with tension at the wall), shear (N), each of the model's thickness; utilisation (part of the strength),
-        hinge_rotation (rad).
+        hinge_rotation (rad), material (name of the one that the lining has by then).
         """
         return read_table(self._file("linings.csv"))
 

@@ -1,0 +1,119 @@
+#include "report/nm_plot.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "report/canvas.hpp"
+#include "report/chart.hpp"
+#include "report/ticks.hpp"
+
+namespace edda {
+namespace {
+
+constexpr Colour dark{0.15, 0.15, 0.17}, zero{0.60, 0.60, 0.62};
+constexpr double high = 24.0;           // of a panel, in sizes of the font
+constexpr double dot = 1.6, rim = 1.0;  // pt
+
+/// What all panels show: moment in x and thrust in y.
+struct Extent {
+  double moment = 0.0, least = 0.0, most = 0.0;
+  void grow(const std::vector<Vec2>& points) {
+    for (const Vec2 p : points) {
+      moment = std::max(moment, std::abs(p.y));
+      least = std::min(least, p.x);
+      most = std::max(most, p.x);
+    }
+  }
+};
+
+Extent extent_of(const NmPanel& panel) {
+  Extent e;
+  for (const NmPoints& at : panel.times) {
+    e.grow(at.sections);
+    e.grow(at.strength);
+  }
+  if (e.moment == 0.0) e.moment = 1.0;
+  if (!(e.most > e.least)) e.most = e.least + 1.0;
+  return e;
+}
+
+/// Times go from dark to light.
+Colour colour_of(const NmPanel& panel, std::size_t k) {
+  const double last = static_cast<double>(std::max<std::size_t>(panel.times.size(), 2) - 1);
+  return sequential(0.85 * static_cast<double>(k) / last);
+}
+
+void draw_panel(Canvas& canvas, const Box& frame, const NmPanel& panel, double font) {
+  const Extent e = extent_of(panel);
+  const ScaledUnit force = scaled_unit("N", std::max(e.most, -e.least)),
+                   couple = scaled_unit("N m", e.moment);
+  const double room = 0.06 * (e.most - e.least);
+  Chart chart(canvas, frame,
+              {{-1.08 * e.moment * couple.factor, (e.least - room) * force.factor},
+               {1.08 * e.moment * couple.factor, (e.most + room) * force.factor}},
+              font);
+  chart.draw_axes("moment (" + couple.name + "), positive with tension at the wall",
+                  "thrust (" + force.name + ")");
+  const auto scaled = [&](const std::vector<Vec2>& points) {
+    std::vector<Vec2> at;
+    for (const Vec2 p : points) at.push_back({p.y * couple.factor, p.x * force.factor});
+    return at;
+  };
+  chart.draw_upright(0.0, zero);
+  canvas.colour(zero);
+  canvas.line({frame.low.x, chart.at(0.0, 0.0).y}, {frame.high.x, chart.at(0.0, 0.0).y},
+              2.0 * rule);
+  for (std::size_t k = 0; k < panel.times.size(); ++k) {
+    std::vector<Vec2> round = scaled(panel.times[k].strength);
+    if (round.empty()) continue;
+    round.push_back(round.front());
+    chart.draw_line(round, rim, colour_of(panel, k));
+  }
+  for (std::size_t k = 0; k < panel.times.size(); ++k) {
+    for (const Vec2 p : scaled(panel.times[k].sections))
+      chart.draw_point(p, dot, colour_of(panel, k));
+  }
+  double y = frame.low.y + font;
+  for (std::size_t k = 0; k < panel.times.size(); ++k, y += 1.3 * font) {
+    canvas.colour(colour_of(panel, k));
+    const double x = frame.high.x + 1.2 * font;
+    cairo_arc(canvas.cr(), x, y - 0.3 * font, 2.0 * dot, 0.0, 6.3);
+    cairo_fill(canvas.cr());
+    canvas.colour(dark);
+    canvas.text(panel.times[k].name, {x + font, y}, {.size = font});
+  }
+  canvas.colour(dark);
+  canvas.text(panel.lining, {frame.low.x, frame.low.y - 0.5 * font}, {.size = font, .bold = true});
+}
+
+}  // namespace
+
+Trouble plot_nm(const NmPicture& p, const std::string& path) {
+  const double f = p.paper.font, left = 6.0 * f, above = 2.0 * f, below = 4.0 * f;
+  double names = 0.0;
+  std::vector<std::string> title;
+  {
+    Canvas measure("", 1.0, 1.0, 1.0);
+    for (const NmPanel& panel : p.panels) {
+      for (const NmPoints& at : panel.times)
+        names = std::max(names, measure.text_width(at.name, f));
+    }
+    title = wrapped(measure, p.title, 1.2 * f, p.paper.width - 2.0 * f, true);
+  }
+  const double right = p.paper.width - std::min(names, 0.3 * p.paper.width) - 3.5 * f,
+               top = f * (0.6 + 1.5 * static_cast<double>(title.size())),
+               panel = above + high * f + below;
+  Canvas canvas(path, p.paper.width, top + panel * static_cast<double>(p.panels.size()),
+                p.paper.pixels_per_point);
+  canvas.colour(dark);
+  for (std::size_t k = 0; k < title.size(); ++k)
+    canvas.text(title[k], {0.5 * p.paper.width, f * (0.6 + 1.5 * static_cast<double>(k + 1))},
+                {.size = 1.2 * f, .align = Align::centre, .bold = true});
+  for (std::size_t k = 0; k < p.panels.size(); ++k) {
+    const double y = top + panel * static_cast<double>(k) + above;
+    draw_panel(canvas, {{left, y}, {right, y + high * f}}, p.panels[k], f);
+  }
+  return canvas.finish();
+}
+
+}  // namespace edda
