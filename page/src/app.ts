@@ -248,7 +248,7 @@ export class App {
     const { lining } = controls;
     if (lining !== undefined && results.linings.any) {
       const unit = unitOf[lining];
-      strokes.push({ colour: css(theme.compression), text: `${lining} of linings, up to ${quantity(results.linings.largest[lining], unit, 3)}`, perPixel: per('linings'), unit, most: results.linings.largest[lining] });
+      strokes.push({ colour: css(theme.compression), text: `${lining}, up to ${quantity(results.linings.largest[lining], unit, 3)}`, perPixel: per('linings'), unit, most: results.linings.largest[lining] });
     }
     const states = controls.field?.of === 'contacts' ? controls.field.name === 'state' : controls.contacts;
     return { scale: this.scale, kinds: this.kinds(controls.field), states: states ? results.run.states : [], strokes };

@@ -51,7 +51,8 @@ void change_properties(Simulation& sim, const PropertyChange& change) {
   if (changed.empty()) return;
   const BodyVectors before = forces_now(sim);
   for (const std::size_t i : change_linings(old->blocks.material, sim.scene.edit()))
-    carry_on(old->zones, sim.scene->zones, sim.scene->blocks, i, sim.motion.zones);
+    carry_on(old->zones, sim.scene->zones, sim.scene->blocks, sim.motion.state, i,
+             sim.motion.zones);
   change_faces(sim, [&](FaceSet& faces, FaceStates& states) {
     change_laws(faces, states, old->blocks, sim.scene->blocks, sim.motion.pose, sim.motion.laws,
                 changed);

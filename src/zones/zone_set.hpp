@@ -88,8 +88,8 @@ Zones zones_at_start(const ZoneModel& zones, const Model& model, const BlockSet&
 /// Gives block i, a lining, the stiffness and strength of its material.
 void change_lining(ZoneModel& zones, const Model& model, const BlockSet& blocks, std::size_t i);
 /// Lets its pieces, which were those of `old`, carry what they carry.
-void carry_on(const ZoneModel& old, const ZoneModel& zones, const BlockSet& blocks, std::size_t i,
-              Zones& all);
+void carry_on(const ZoneModel& old, const ZoneModel& zones, const BlockSet& blocks,
+              const State& state, std::size_t i, Zones& all);
 
 /// Begins the pieces of block i, a lining, without stress where they are.
 void begin_lining(const ZoneModel& model, const BlockSet& blocks, const State& state, std::size_t i,

@@ -78,6 +78,10 @@ class Pictures(RampProgram):
             stage = "old" if float(row["time"]) > 0.0501 else "young"
             self.assertTrue(row["material"] == stage or abs(float(row["time"]) - 0.05) < 1e-4, row)
         self.assertAlmostEqual(float(rows[-1]["utilisation"]), 4e5 / (0.3 * 20e6), delta=0.01)
+        # A run that goes on from the end of the first stage hardens alike.
+        whole = (self.dir / "r/linings.csv").read_bytes()
+        self.expect(0, "run", "r.toml", "--quiet", "--from", "soft")
+        self.assertEqual((self.dir / "r/linings.csv").read_bytes(), whole)
 
     def test_thrust_over_moment_refuses_what_is_not_there(self):
         self.lined_ring()
