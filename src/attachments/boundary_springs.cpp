@@ -181,4 +181,16 @@ void BoundarySprings::engage_block(Id block, const std::vector<double>& x,
   for (std::size_t q = block_begin[block]; q < block_begin[block + 1]; ++q) start_at(q, x, y);
 }
 
+double boundary_energy(const BoundarySprings& s, const Pose& pose) {
+  return ordered_sum(s.size(), [&](std::size_t q) {
+    const Id v = s.vertex[q];
+    const auto row = static_cast<std::size_t>(s.boundary[q]);
+    const Vec2 now = s.shift[row], before = s.shift_1[row];
+    const double ux = pose.x[v] - s.start_x[q] - now.x, uy = pose.y[v] - s.start_y[q] - now.y;
+    const double wx = pose.x1[v] - s.start_x[q] - before.x;
+    const double wy = pose.y1[v] - s.start_y[q] - before.y;
+    return 0.5 * (wx * (s.kxx[q] * ux + s.kxy[q] * uy) + wy * (s.kxy[q] * ux + s.kyy[q] * uy));
+  });
+}
+
 }  // namespace edda
