@@ -73,7 +73,9 @@ std::optional<Overlap> overlap_of_face(const FlowScene& s, std::size_t k) {
   f.eta = {(o.ma - o.r2) * o.per_f, (o.mb - o.r2) * o.per_f};
   f.opening = {-(o.closure_at_0 + o.closure_slope * o.ma),
                -(o.closure_at_0 + o.closure_slope * o.mb)};
-  // Far sides of thin blocks do not meet.
+  // Walls that part by more than 1 in 2 are those of a void; far sides of thin blocks do not meet.
+  constexpr double parting = 0.5;
+  if (std::abs(o.closure_slope) > parting) return {};
   if (std::min(f.opening.a, f.opening.b) < -pair.passing) return {};
   const bool e_at_a = o.r2 <= 0.0, e_at_b = o.s2 <= o.r1;
   const auto corners = [&](Id(&to)[2], Id of_e, Id of_f, bool e_bounds, double apart) {

@@ -159,6 +159,12 @@ static void add_rigid_check(const Outcome& o, std::vector<Check>& checks) {
       limited(std::string(rigid_check), std::max(0.0, 1.0 - *o.rigid_factor), deforms));
 }
 
+static void add_flow_check(const Simulation& sim, std::vector<Check>& checks) {
+  if (!sim.scene->model.flow) return;
+  checks.push_back(limited("times that the free surface of the flow was not found",
+                           static_cast<double>(sim.attached.joint_water.not_found), 0.0));
+}
+
 std::vector<Check> checks_of(const Simulation& sim, const Outcome& o) {
   std::vector<Check> checks{
       limited(std::string(overlap_check), o.overlap.ratio, overlap_limit),
@@ -168,10 +174,7 @@ std::vector<Check> checks_of(const Simulation& sim, const Outcome& o) {
       limited("number of blocks that rest on nothing at the start",
               static_cast<double>(o.on_nothing), 0.0),
   };
-  if (sim.scene->model.flow) {
-    checks.push_back(limited("times that the free surface of the flow was not found",
-                             static_cast<double>(sim.attached.joint_water.not_found), 0.0));
-  }
+  add_flow_check(sim, checks);
   if (is_explicit(sim)) {
     const auto free = static_cast<double>(std::count(
         sim.scene->blocks.fixed.begin(), sim.scene->blocks.fixed.end(), std::uint8_t{0}));

@@ -107,4 +107,15 @@ BeamCorners corners_of_piece(const BlockSet& b, const ZoneModel& model, const St
   return {at(a), at(c), at(d), at(b.meshes.zone[other][2])};
 }
 
+void carry_on(const ZoneModel& old, const ZoneModel& zones, const BlockSet& b, const State& s,
+              std::size_t i, Zones& all) {
+  for (std::uint32_t p = zones.pair_begin[i]; p < zones.pair_begin[i + 1]; ++p) {
+    const std::uint32_t q = zones.piece_of_pair[p];
+    const double more = change_shape(old.piece[q].shape, zones.piece[q].shape,
+                                     corners_of_piece(b, zones, s, p), all.piece[q]);
+    all.stored[p] += more;
+    all.stored_between[p] += more;
+  }
+}
+
 }  // namespace edda

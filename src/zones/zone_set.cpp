@@ -479,17 +479,6 @@ void change_lining(ZoneModel& zones, const Model& model, const BlockSet& b, std:
   find_squares_of(zones, b, i);
 }
 
-void carry_on(const ZoneModel& old, const ZoneModel& zones, const BlockSet& b, const State& s,
-              std::size_t i, Zones& all) {
-  for (std::uint32_t p = zones.pair_begin[i]; p < zones.pair_begin[i + 1]; ++p) {
-    const std::uint32_t q = zones.piece_of_pair[p];
-    const double more = change_shape(old.piece[q].shape, zones.piece[q].shape,
-                                     corners_of_piece(b, zones, s, p), all.piece[q]);
-    all.stored[p] += more;
-    all.stored_between[p] += more;
-  }
-}
-
 void begin_lining(const ZoneModel& model, const BlockSet& b, const State& s, std::size_t i,
                   Zones& zones) {
   place_nodes(b, s.position, zones.place, i, i + 1);
