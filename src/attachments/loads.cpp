@@ -47,6 +47,11 @@ EndForces water_of(const BlockSet& b, const LoadsNow& now, const WetEdge& e,
   return {(h.all - h.second) * inward, h.second * inward};
 }
 
+/// Unit weight times thickness, N/m2.
+double weight_of(const Model& model, const Water& water) {
+  return water.unit_weight * model.thickness;
+}
+
 /// The factor on a load: what its history says since it was activated, times its multiplier.
 double factor_of(const TimeHistory& history, const ActiveInterval& interval,
                  const SteppedValue& slow, double time, const GradualChange& gradual) {
@@ -64,8 +69,7 @@ LoadsNow waters_at(const Model& model, const Loads& loads, double time) {
     const ActiveInterval& interval = loads.intervals.waters[q];
     const bool acts = interval.acts() && time >= interval.since;
     now.rise.push_back(acts ? water.rise.at(time - interval.since, 0.0) : 0.0);
-    now.weight.push_back(acts ? loads.slow.waters[q].value * water.unit_weight * model.thickness
-                              : 0.0);
+    now.weight.push_back(acts ? loads.slow.waters[q].value * weight_of(model, water) : 0.0);
   }
   return now;
 }
@@ -146,8 +150,7 @@ LoadsNow loads_at(const Model& model, const Loads& loads, double time) {
     const ActiveInterval& interval = loads.intervals.waters[q];
     const double part = interval.part(time, gradual);
     now.rise.push_back(part > 0.0 ? water.rise.at(time - interval.since, 0.0) : 0.0);
-    now.weight.push_back(part * loads.slow.waters[q].at(time, gradual) * water.unit_weight *
-                         model.thickness);
+    now.weight.push_back(part * loads.slow.waters[q].at(time, gradual) * weight_of(model, water));
   }
   if (loads.in_joints > 0.0) {
     const double part = gradual.at ? gradual.part : 1.0;

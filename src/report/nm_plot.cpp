@@ -5,6 +5,7 @@
 
 #include "report/canvas.hpp"
 #include "report/chart.hpp"
+#include "report/legend.hpp"
 #include "report/ticks.hpp"
 
 namespace edda {
