@@ -60,5 +60,37 @@ TEST(Flow, StillWaterPressesAsATable) {
   }
 }
 
+/// A slope of two joint sets with slivers, groundwater on its right, as its joints close under its
+/// weight: the discharge falls, and leaves above the toe alone.
+TEST(Flow, NothingDrainsIntoTheRock) {
+  Simulation sim =
+      scene(rock +
+            "[flow]\n[solver]\nduration = 1\ndamping = { local = 0.8 }\n[slope]\ntoe = [0, 0]\n"
+            "height = 40\nface_angle = 60\nbase_y = -20\nextent = [-40, 80]\n[domain]\n"
+            "material = 'rock'\n[[joint_set]]\nangle = 20\nspacing = 5\njoint = 'bedding'\n"
+            "[[joint_set]]\nangle = -70\nspacing = 5\njoint = 'bedding'\n"
+            "[[boundary]]\nsides = ['left', 'right', 'bottom']\ntype = 'roller'\n"
+            "[[water]]\nlevel = 30\nsides = ['right']\n");
+  const JointWater& water = sim.attached.joint_water;
+  const double at_first = water.inflow[0];
+  EXPECT_GT(at_first, 0.0);
+  start(sim, 10.0);
+  for (int look = 0; look < 60; ++look) {
+    for (std::uint64_t n = 0; n < steps_between_flows; ++n) ASSERT_FALSE(step(sim));
+    if (look >= 30) {
+      EXPECT_LT(water.inflow[0], at_first) << sim.motion.state.steps;
+    }
+    EXPECT_NEAR(water.inflow[0], -water.inflow[1], 1e-6 * at_first);
+    EXPECT_EQ(water.not_found, 0u);
+  }
+  EXPECT_LT(water.inflow[0], 0.9 * at_first);
+  // Ground below the toe is full.
+  const BlockSet& b = sim.scene->blocks;
+  for (Id v = 0; v < b.vertex_count(); ++v) {
+    if (water.filled[v] == 0.0 || b.vertex(v).y + b.origin.y > -0.5) continue;
+    EXPECT_GT(water.pressure[v], 9810.0 * -(b.vertex(v).y + b.origin.y) - 2000.0);
+  }
+}
+
 }  // namespace
 }  // namespace edda::flow_test
