@@ -9,6 +9,11 @@ namespace {
 
 using Kind = NodeCondition::Kind;
 
+/// Level of the water on a part of an edge at its coordinate s, m.
+double level_at(const WetEdge& e, double s) {
+  return e.level_from + (e.level_to - e.level_from) / (e.to - e.from) * (s - e.from);
+}
+
 class Flow {
  public:
   Flow(JointWater& joints, const FlowScene& scene, const LoadsNow& now)
@@ -85,9 +90,7 @@ class Flow {
       for (const WetEdge& e : outside(open.edge)) {
         const double from = std::max(e.from, open.from), to = std::min(e.to, open.to);
         if (!(to > from)) continue;
-        const double slope = (e.level_to - e.level_from) / (e.to - e.from);
-        wet.push_back({e.edge, from, to, e.level_from + slope * (from - e.from),
-                       e.level_from + slope * (to - e.from), e.water});
+        wet.push_back({e.edge, from, to, level_at(e, from), level_at(e, to), e.water});
       }
     }
     return wet;
@@ -104,9 +107,7 @@ class Flow {
       for (const WetEdge& e : outside(outcrop.edge)) {
         constexpr double rounding = 1e-9;
         if (outcrop.at < e.from - rounding || outcrop.at > e.to + rounding) continue;
-        const double slope = (e.level_to - e.level_from) / (e.to - e.from);
-        take(given, e.water, e.level_from + slope * (outcrop.at - e.from),
-             net_.nodes[outcrop.node]);
+        take(given, e.water, level_at(e, outcrop.at), net_.nodes[outcrop.node]);
       }
     }
     for (const HeadNode& head : net_.heads) {

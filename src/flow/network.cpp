@@ -33,7 +33,6 @@ class Nodes {
     return v;
   }
   void use(Id v) { used_[v] = 1; }
-  bool used(Id v) const { return used_[v] != 0; }
   void join(Id v, Id w) {
     use(v);
     use(w);
@@ -298,10 +297,15 @@ class Builder {
     Id last_node = from;
     const auto add = [&](double until, Id node) {
       const auto there = [&](double t) { return (1.0 - t) * aperture.a + t * aperture.b; };
-      FlowPipe pipe{f.face,      last_node,    node, last, until, (until - last) * f.length,
-                    there(last), there(until), 0.0};
-      pipe.conductance = conductance_of(pipe.from_aperture, pipe.to_aperture, pipe.length,
-                                        s_.model.flow->viscosity);
+      const double length = (until - last) * f.length;
+      const FlowPipe pipe{
+          f.face,
+          last_node,
+          node,
+          last,
+          until,
+          length,
+          conductance_of(there(last), there(until), length, s_.model.flow->viscosity)};
       cover(f, pipe);
       net_.pipes.push_back(pipe);
       last = until;

@@ -36,12 +36,11 @@ struct FlowNode {
 
 /// A face with an aperture, or a part of one.
 struct FlowPipe {
-  Id face;                            ///< row of the FaceSet
-  Id from, to;                        ///< nodes on the side of end a, and of end b
-  double part_from, part_to;          ///< of the overlap of the face, 0 at end a, 1 at end b
-  double length;                      ///< m
-  double from_aperture, to_aperture;  ///< m
-  double conductance;                 ///< m2/s per Pa
+  Id face;                    ///< row of the FaceSet
+  Id from, to;                ///< nodes on the side of end a, and of end b
+  double part_from, part_to;  ///< of the overlap of the face, 0 at end a, 1 at end b
+  double length;              ///< m
+  double conductance;         ///< m2/s per Pa
 };
 
 /// A part of an edge that a joint with water covers, from the node `from_node` to the other one of
