@@ -12,7 +12,7 @@ namespace edda {
 namespace {
 
 constexpr Colour dark{0.15, 0.15, 0.17}, zero{0.60, 0.60, 0.62};
-constexpr double high = 24.0;           // of a panel, in sizes of the font
+constexpr double panel_height = 24.0;   // in sizes of the font
 constexpr double dot = 1.6, rim = 1.0;  // pt
 
 /// What all panels show: moment in x and thrust in y.
@@ -103,7 +103,7 @@ Trouble plot_nm(const NmPicture& p, const std::string& path) {
   }
   const double right = p.paper.width - std::min(names, 0.3 * p.paper.width) - 3.5 * f,
                top = f * (0.6 + 1.5 * static_cast<double>(title.size())),
-               panel = above + high * f + below;
+               panel = above + panel_height * f + below;
   Canvas canvas(path, p.paper.width, top + panel * static_cast<double>(p.panels.size()),
                 p.paper.pixels_per_point);
   canvas.colour(dark);
@@ -112,7 +112,7 @@ Trouble plot_nm(const NmPicture& p, const std::string& path) {
                 {.size = 1.2 * f, .align = Align::centre, .bold = true});
   for (std::size_t k = 0; k < p.panels.size(); ++k) {
     const double y = top + panel * static_cast<double>(k) + above;
-    draw_panel(canvas, {{left, y}, {right, y + high * f}}, p.panels[k], f);
+    draw_panel(canvas, {{left, y}, {right, y + panel_height * f}}, p.panels[k], f);
   }
   return canvas.finish();
 }
