@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "model/files/accelerogram.hpp"
+#include "model/stage_names.hpp"
 
 namespace edda {
 namespace {
@@ -60,6 +61,13 @@ double factor_of(const TimeHistory& history, const ActiveInterval& interval,
   return part * slow.at(time, gradual) * history.at(time - interval.since, 1.0);
 }
 
+/// m: by the time since the water was activated, or where flow takes its time by that.
+double rise_of(const Model& model, const Loads& loads, std::size_t water, double time) {
+  const double since = loads.intervals.waters[water].since;
+  return model.waters[water].rise.at(
+      flow_takes_time(model) ? loads.slow.flow.at(time, loads.gradual) : time - since, 0.0);
+}
+
 }  // namespace
 
 LoadsNow waters_at(const Model& model, const Loads& loads, double time) {
@@ -68,7 +76,7 @@ LoadsNow waters_at(const Model& model, const Loads& loads, double time) {
     const Water& water = model.waters[q];
     const ActiveInterval& interval = loads.intervals.waters[q];
     const bool acts = interval.acts() && time >= interval.since;
-    now.rise.push_back(acts ? water.rise.at(time - interval.since, 0.0) : 0.0);
+    now.rise.push_back(acts ? rise_of(model, loads, q, time) : 0.0);
     now.weight.push_back(acts ? loads.slow.waters[q].value * weight_of(model, water) : 0.0);
   }
   return now;
@@ -95,6 +103,8 @@ SteppedValue* slow_value(SlowLoading& slow, Varied varied, Index target) {
       return target == backwards ? &slow.kv_back : &slow.kv;
     case Varied::gravity:
       return &slow.gravity;
+    case Varied::flow:
+      return &slow.flow;
     case Varied::load:
       return &slow.loads[row];
     case Varied::water:
@@ -149,11 +159,11 @@ LoadsNow loads_at(const Model& model, const Loads& loads, double time) {
     const Water& water = model.waters[q];
     const ActiveInterval& interval = loads.intervals.waters[q];
     const double part = interval.part(time, gradual);
-    now.rise.push_back(part > 0.0 ? water.rise.at(time - interval.since, 0.0) : 0.0);
+    now.rise.push_back(part > 0.0 ? rise_of(model, loads, q, time) : 0.0);
     now.weight.push_back(part * loads.slow.waters[q].at(time, gradual) * weight_of(model, water));
   }
   if (loads.in_joints > 0.0) {
-    const double part = gradual.at ? gradual.part : 1.0;
+    const double part = gradual.at && loads.flow == JointFlow::steady ? gradual.part : 1.0;
     now.rise.insert(now.rise.end(), {0.0, 0.0});
     now.weight.insert(now.weight.end(), {part * loads.in_joints, (1.0 - part) * loads.in_joints});
   }

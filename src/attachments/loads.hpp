@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <optional>
 #include <vector>
@@ -132,6 +133,7 @@ struct SlowLoading {
   SteppedValue tilt;                         ///< degrees
   SteppedValue kh_back, kv_back, tilt_back;  ///< the same to the left and downwards
   SteppedValue gravity{1., 1.};              ///< multiplier of the weight
+  SteppedValue flow;                         ///< s, time of the flow in joints
   /// Multipliers, [rows of Model::loads], of Model::waters and of Model::boundaries.
   std::vector<SteppedValue> loads, waters, boundaries;
 };
@@ -147,6 +149,10 @@ SteppedValue* slow_value(SlowLoading& slow, Varied varied, Index target);
 /// The interval in which that load, water or boundary is active; null for all others.
 ActiveInterval* interval_of(ActiveIntervals& intervals, Varied varied, Index target);
 
+/// How water in joints follows their motion: it has all the time it needs; it has that of
+/// SlowLoading::flow; or its pressures stay what they are.
+enum class JointFlow : std::uint8_t { steady, timed, held };
+
 /// All loads, each list sorted by block, on free blocks.
 struct Loads {
   std::vector<PointLoad> points;
@@ -160,6 +166,7 @@ struct Loads {
   };
   std::vector<Range> range;  ///< [blocks]
   std::vector<Id> place;     ///< [nb] index into `blocks`, or no_id; empty where there are none
+  JointFlow flow = JointFlow::steady;
   ActiveIntervals intervals;
   std::vector<SteppedValue> remaining;  ///< [owners] fraction of wall forces that still acts; an
                                         ///< owner: see WallForce

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <span>
+#include <tuple>
 
 namespace edda {
 namespace {
@@ -20,18 +21,54 @@ class Flow {
       : joints_(joints), s_(scene), now_(now), thickness_(scene.model.thickness) {
     gamma_ = scene.model.waters.front().unit_weight;
     net_ = flow_network(scene, joints.ground);
-  }
-
-  void solve() {
-    give_conditions();
     water_.assign(net_.nodes.size(), {});
     for (Id v = 0; v < net_.node_of.size(); ++v) {
       const Id n = net_.node_of[v];
       if (n == no_id) continue;
-      water_[n].pressure = std::max(water_[n].pressure, joints_.pressure[v]);
-      water_[n].filled = std::max(water_[n].filled, joints_.filled[v]);
+      water_[n].pressure = std::max(water_[n].pressure, joints.pressure[v]);
+      water_[n].filled = std::max(water_[n].filled, joints.filled[v]);
     }
-    if (!solve_seepage(net_, given_, gamma_, water_)) ++joints_.not_found;
+  }
+
+  std::vector<WaterContent> contents() const {
+    std::vector<WaterContent> found;
+    for (const FlowPipe& pipe : net_.pipes) {
+      WaterContent c = key_of_pipe(pipe, found.empty() ? nullptr : &found.back());
+      c.from = pipe.volume.a * part_of(pipe.from);
+      c.to = pipe.volume.b * part_of(pipe.to);
+      found.push_back(c);
+    }
+    std::sort(found.begin(), found.end(), by_key);
+    return found;
+  }
+
+  std::vector<BlockForce> solve_in_step(const WaterInStep& step) {
+    const std::vector<NodeForce> forces = node_forces(net_, s_);
+    Storage storage;
+    storage.passed = step.passed;
+    storage.bulk_modulus = s_.model.flow->bulk_modulus;
+    storage.gives = gives_of(forces, s_, step.masses, step.seconds_squared);
+    for (std::size_t n = 0; n < water_.size(); ++n) {
+      storage.volume.push_back(net_.nodes[n].volume);
+      storage.acting.push_back(water_[n].pressure);
+    }
+    storage.content = contents_of_nodes();
+    solve(&storage);
+    std::vector<BlockForce> more;
+    for (const NodeForce& f : forces) {
+      const double rise = water_[f.node].pressure - storage.acting[f.node];
+      if (more.empty() || more.back().block != f.block) {
+        more.push_back({f.block, rise * f.force});
+      } else {
+        more.back().force += rise * f.force;
+      }
+    }
+    return more;
+  }
+
+  void solve(const Storage* storage = nullptr) {
+    give_conditions();
+    if (!solve_seepage(net_, given_, gamma_, water_, storage)) ++joints_.not_found;
     joints_.heads.assign(s_.model.waters.size(), 0);
     for (const HeadNode& head : net_.heads) ++joints_.heads[static_cast<std::size_t>(head.water)];
     for (Id v = 0; v < net_.node_of.size(); ++v) {
@@ -97,6 +134,37 @@ class Flow {
   }
 
  private:
+  /// s + p/K
+  double part_of(Id n) const {
+    return water_[n].filled + water_[n].pressure / s_.model.flow->bulk_modulus;
+  }
+  static bool by_key(const WaterContent& c, const WaterContent& d) {
+    return std::tuple(c.edge, c.facing, c.part) < std::tuple(d.edge, d.facing, d.part);
+  }
+  /// The face of a pipe and its place there, by those of the pipe before it.
+  WaterContent key_of_pipe(const FlowPipe& pipe, const WaterContent* before) const {
+    WaterContent c{s_.faces.edge[pipe.face], s_.faces.facing[pipe.face], 0, 0.0, 0.0};
+    if (before != nullptr && before->edge == c.edge && before->facing == c.facing)
+      c.part = before->part + 1;
+    return c;
+  }
+
+  /// What the nodes contained when the time began. A joint that was none then has what it has.
+  std::vector<double> contents_of_nodes() const {
+    std::vector<double> content(net_.nodes.size(), 0.0);
+    const std::vector<WaterContent>& then = joints_.contents;
+    WaterContent c{};
+    for (std::size_t q = 0; q < net_.pipes.size(); ++q) {
+      const FlowPipe& pipe = net_.pipes[q];
+      c = key_of_pipe(pipe, q == 0 ? nullptr : &c);
+      const auto at = std::lower_bound(then.begin(), then.end(), c, by_key);
+      const bool known = at != then.end() && !by_key(c, *at);
+      content[pipe.from] += known ? at->from : pipe.volume.a * part_of(pipe.from);
+      content[pipe.to] += known ? at->to : pipe.volume.b * part_of(pipe.to);
+    }
+    return content;
+  }
+
   /// The highest head of lines in the rock and of what lies open beside a node.
   void give_conditions() {
     given_.assign(net_.nodes.size(), {});
@@ -164,6 +232,19 @@ void flow_through(JointWater& joints, const FlowScene& scene, const LoadsNow& no
   flow.solve();
   flow.report();
   put_water(scene.blocks, flow.wet_edges(), loads);
+}
+
+void take_contents(JointWater& joints, const FlowScene& scene) {
+  joints.contents = Flow(joints, scene, {}).contents();
+}
+
+std::vector<BlockForce> flow_in_step(JointWater& joints, const FlowScene& scene,
+                                     const LoadsNow& now, const WaterInStep& step, Loads& loads) {
+  Flow flow(joints, scene, now);
+  std::vector<BlockForce> forces = flow.solve_in_step(step);
+  flow.report();
+  put_water(scene.blocks, flow.wet_edges(), loads);
+  return forces;
 }
 
 void keep_water(JointWater& joints, const Loads& loads, Index waters) {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "flow/network.hpp"
+#include "flow/node_forces.hpp"
 #include "flow/seepage.hpp"
 
 namespace edda {
@@ -17,19 +18,46 @@ struct FlowRow {
   double pressure_a, pressure_b;  ///< Pa, at its ends
 };
 
+/// Water in a pipe of a face when a time began to pass: V (s + p/K) of its two ends, m2.
+struct WaterContent {
+  Id edge, facing;  ///< of the face
+  Id part;          ///< of its pipes, from end a on
+  double from, to;
+};
+
 struct JointWater {
   FlowGround ground;
   std::vector<double> pressure, filled;  ///< [nv] NodeWater of the node of each corner
   std::vector<FlowRow> rows;             ///< of the faces with water, by edge and facing
   std::vector<double> inflow;   ///< [rows of Model::waters, and the open air] m2/s into the joints
   std::uint64_t not_found = 0;  ///< times that the free surface has not been found
-  std::vector<std::size_t> heads;  ///< [rows of Model::waters] nodes on their lines at present
+  std::vector<std::size_t> heads;      ///< [rows of Model::waters] nodes on their lines at present
+  std::vector<WaterContent> contents;  ///< by face and part
   std::vector<WetEdge> before;  ///< water in joints before what changes gradually began to change
 };
 
 /// Solves for steady flow through the joints as they are now, and puts its pressures on their walls
 /// (Loads::wet). now: waters_at().
 void flow_through(JointWater& joints, const FlowScene& scene, const LoadsNow& now, Loads& loads);
+/// Takes what the joints contain as what they contained when a time began to pass.
+void take_contents(JointWater& joints, const FlowScene& scene);
+
+/// Forces on a block.
+struct BlockForce {
+  Id block;
+  BodyVector force;
+};
+/// What the blocks in a step do to the water in joints, and it to them.
+struct WaterInStep {
+  const Masses& masses;
+  double seconds_squared;  ///< of the step: displacement over acceleration
+  double passed;           ///< s, of the time of the flow, since the contents were taken
+};
+/// Solves for the water as it is at the end of a step, scene.pose, that has been made under its
+/// pressures before; puts it on the walls, and returns what must be added to the forces on the
+/// blocks, so that the step is made under the pressures at its end.
+std::vector<BlockForce> flow_in_step(JointWater& joints, const FlowScene& scene,
+                                     const LoadsNow& now, const WaterInStep& step, Loads& loads);
 /// What follows changes gradually from the water in joints as it is now.
 void keep_water(JointWater& joints, const Loads& loads, Index waters);
 

@@ -139,6 +139,8 @@ class Builder {
     for (const FlowPipe& pipe : net_.pipes) {
       net_.nodes[pipe.from].conductance += pipe.conductance;
       net_.nodes[pipe.to].conductance += pipe.conductance;
+      net_.nodes[pipe.from].volume += pipe.volume.a;
+      net_.nodes[pipe.to].volume += pipe.volume.b;
     }
     add_open_parts();
     return std::move(net_);
@@ -305,7 +307,9 @@ class Builder {
           last,
           until,
           length,
-          conductance_of(there(last), there(until), length, s_.model.flow->viscosity)};
+          conductance_of(there(last), there(until), length, s_.model.flow->viscosity),
+          {length * (2.0 * there(last) + there(until)) / 6.0,
+           length * (there(last) + 2.0 * there(until)) / 6.0}};
       cover(f, pipe);
       net_.pipes.push_back(pipe);
       last = until;

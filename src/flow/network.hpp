@@ -32,6 +32,7 @@ FlowGround flow_ground(const Model& model, const BlockSet& blocks, std::vector<W
 struct FlowNode {
   Vec2 place;                ///< m, local coordinates
   double conductance = 0.0;  ///< of its pipes together
+  double volume = 0.0;       ///< of its part of them, m2
 };
 
 /// A face with an aperture, or a part of one.
@@ -41,6 +42,7 @@ struct FlowPipe {
   double part_from, part_to;  ///< of the overlap of the face, 0 at end a, 1 at end b
   double length;              ///< m
   double conductance;         ///< m2/s per Pa
+  FaceEnds volume;            ///< m2: the parts of its two nodes, by weights linear along it
 };
 
 /// A part of an edge that a joint with water covers, from the node `from_node` to the other one of

@@ -18,8 +18,8 @@ using Kind = NodeCondition::Kind;
 class SeepageSolver {
  public:
   SeepageSolver(const FlowNetwork& net, const std::vector<NodeCondition>& given, double unit_weight,
-                std::vector<NodeWater>& water)
-      : net_(net), given_(given), gamma_(unit_weight), water_(water) {
+                std::vector<NodeWater>& water, const Storage* storage)
+      : net_(net), given_(given), gamma_(unit_weight), water_(water), storage_(storage) {
     const std::size_t count = net.nodes.size();
     for (std::size_t n = 0; n < count; ++n) {
       if (given_[n].kind == Kind::pressure) {
@@ -31,6 +31,7 @@ class SeepageSolver {
       }
     }
     list_pipes();
+    if (storage != nullptr) list_gives();
     find_inside();
     std::stable_sort(inside_.begin(), inside_.end(),
                      [&](Id a, Id b) { return net.nodes[a].place.y > net.nodes[b].place.y; });
@@ -40,7 +41,7 @@ class SeepageSolver {
     constexpr int rounds = 8, newton_steps = 25;
     int sweeps = 20;
     constexpr double small = 2e-9;
-    begin();
+    if (storage_ == nullptr) begin();
     for (int round = 0; round < rounds; ++round, sweeps *= 2) {
       for (int k = 0; k < newton_steps; ++k) {
         if (largest_imbalance() < small) return true;
@@ -99,9 +100,16 @@ class SeepageSolver {
     }
   }
 
-  /// The nodes inside the rock that pipes connect to a given pressure. The others are dry.
+  void list_gives() {
+    first_give_.assign(net_.nodes.size() + 1, 0);
+    for (const Storage::Give& g : storage_->gives) ++first_give_[g.node + 1];
+    std::partial_sum(first_give_.begin(), first_give_.end(), first_give_.begin());
+  }
+
+  /// The nodes inside the rock that pipes connect to a given pressure; of those that store water
+  /// all. The others are dry.
   void find_inside() {
-    std::vector<std::uint8_t> connected(given_.size(), 0);
+    std::vector<std::uint8_t> connected(given_.size(), storage_ == nullptr ? 0 : 1);
     std::vector<Id> next;
     for (Id n = 0; n < given_.size(); ++n) {
       if (given_[n].kind == Kind::pressure) next.push_back(n);
@@ -135,15 +143,43 @@ class SeepageSolver {
       b.by_pressure += conductance * conducts;
       if (drop > 0.0) b.by_filled += conductance * drop;
     }
+    if (storage_ != nullptr) store(n, b);
     return b;
   }
 
+  /// Of the time that passes, with what the node stores: m2.
+  void store(Id n, Balance& b) const {
+    for (double* value : {&b.net, &b.by_pressure, &b.by_filled}) *value *= storage_->passed;
+    const NodeWater w = water_[n];
+    const double volume = volume_of(n), part = w.filled + w.pressure / storage_->bulk_modulus;
+    b.net += volume * part - storage_->content[n];
+    b.by_pressure += volume / storage_->bulk_modulus;
+    b.by_filled += volume;
+    for (std::size_t q = first_give_[n]; q < first_give_[n + 1]; ++q) {
+      if (storage_->gives[q].other == n) b.by_pressure += part * storage_->gives[q].compliance;
+    }
+  }
+  /// V under the pressures as they are; at least a small part of what it was.
+  double volume_of(Id n) const {
+    double volume = storage_->volume[n];
+    for (std::size_t q = first_give_[n]; q < first_give_[n + 1]; ++q) {
+      const Storage::Give& g = storage_->gives[q];
+      volume += g.compliance * (water_[g.other].pressure - storage_->acting[g.other]);
+    }
+    constexpr double least = 1e-3;
+    return std::max(volume, least * storage_->volume[n]);
+  }
+
+  /// As a part of what flows through the node, or of what it stores as its unknown grows.
   double largest_imbalance() const {
     double largest = 0.0;
     for (const Id n : inside_) {
       const Balance b = balance_of(n);
-      const double least = 1e-3 * gamma_ * net_.nodes[n].conductance;  // 1 mm of head
-      largest = std::max(largest, std::abs(b.net) / std::max(b.gross, least));
+      const double least = 1e-3 * gamma_;  // Pa: 1 mm of head
+      double whole = std::max(b.gross, least * net_.nodes[n].conductance);
+      if (storage_ != nullptr)
+        whole = is_wet(n, b.net) ? b.by_pressure * (water_[n].pressure + least) : b.by_filled;
+      largest = std::max(largest, whole > 0.0 ? std::abs(b.net) / whole : 0.0);
     }
     return largest;
   }
@@ -191,6 +227,7 @@ class SeepageSolver {
     std::vector<Eigen::Triplet<double>> entries;
     std::vector<std::uint8_t> wet(inside_.size());
     Eigen::VectorXd right(rows);
+    const double time = storage_ == nullptr ? 1.0 : storage_->passed;
     const auto add = [&](std::size_t k, std::size_t column, double value) {
       entries.emplace_back(static_cast<int>(k), static_cast<int>(column), value);
     };
@@ -200,7 +237,7 @@ class SeepageSolver {
       right[static_cast<Eigen::Index>(k)] = -b.net;
       // What is cut off stays as it is.
       constexpr double cut_off = 1e-14;
-      const double conductance = net_.nodes[inside_[k]].conductance;
+      const double conductance = net_.nodes[inside_[k]].conductance * time;
       add(k, k,
           wet[k] != 0 ? b.by_pressure + cut_off * conductance
                       : b.by_filled + cut_off * gamma_ * conductance);
@@ -213,10 +250,17 @@ class SeepageSolver {
         const double drop = potential(n) - potential(m);
         const bool leaves = drop >= 0.0;
         if (wet[row[m]] != 0) {
-          add(k, row[m], -conductance * (leaves ? water_[n].filled : water_[m].filled));
+          add(k, row[m], -time * conductance * (leaves ? water_[n].filled : water_[m].filled));
         } else if (!leaves) {
-          add(k, row[m], conductance * drop);
+          add(k, row[m], time * conductance * drop);
         }
+      }
+      for (std::size_t q = storage_ == nullptr ? 0 : first_give_[n];
+           storage_ != nullptr && q < first_give_[n + 1]; ++q) {
+        const auto [node, other, compliance] = storage_->gives[q];
+        if (other == n || row[other] == no_id || wet[row[other]] == 0) continue;
+        add(k, row[other],
+            compliance * (water_[n].filled + water_[n].pressure / storage_->bulk_modulus));
       }
     }
     if (rows == 0) return;
@@ -233,7 +277,8 @@ class SeepageSolver {
   const std::vector<NodeCondition>& given_;
   double gamma_;
   std::vector<NodeWater>& water_;
-  std::vector<std::size_t> begin_;
+  const Storage* storage_;  // null: the flow is steady
+  std::vector<std::size_t> begin_, first_give_;
   std::vector<Neighbour> of_node_;
   std::vector<Id> inside_;                                    // from the highest to the lowest
   double highest_ = std::numeric_limits<double>::infinity();  // potential, Pa
@@ -254,8 +299,8 @@ Ends ends_of(const FlowNetwork& net, const FlowPipe& pipe, double gamma,
 }  // namespace
 
 bool solve_seepage(const FlowNetwork& network, const std::vector<NodeCondition>& given,
-                   double unit_weight, std::vector<NodeWater>& water) {
-  return SeepageSolver(network, given, unit_weight, water).solve();
+                   double unit_weight, std::vector<NodeWater>& water, const Storage* storage) {
+  return SeepageSolver(network, given, unit_weight, water, storage).solve();
 }
 
 double discharge_of(const FlowNetwork& network, const FlowPipe& pipe, double unit_weight,

@@ -1,4 +1,6 @@
 // Flow through the network of joints, with a free surface (theory, section 13.9).
+// Within a time dt the nodes store water, too (13.9.5):
+//   V (s + p/K) - content + dt sum q = 0
 //
 // Of a node: p >= 0 its pressure, s the part of it that water fills, phi = p + gamma y. Either p >
 // 0 and s = 1 (wet), or p = 0 and 0 <= s <= 1 (air enters). A pipe from i to j, phi_i >= phi_j, has
@@ -32,11 +34,26 @@ struct NodeWater {
   double filled = 0.0;    ///< s
 };
 
+/// What the joints store while a time passes.
+struct Storage {
+  double passed = 0.0;        ///< s
+  double bulk_modulus = 0.0;  ///< K of water, Pa
+  /// [nodes] V of the node under the pressures `acting`, m2, and V (s + p/K) at the beginning.
+  std::vector<double> volume, content;
+  std::vector<double> acting;  ///< [nodes] Pa
+  struct Give {
+    Id node, other;
+    double compliance;  ///< m2/Pa: growth of V of `node` under a pressure at `other`
+  };
+  std::vector<Give> gives;  ///< by node
+};
+
 /// Solves for the water of all nodes. [nodes] water: on entry a guess, as that of a state before.
 /// unit_weight: gamma, N/m3. Returns whether the set of wet nodes has been found; else the last one
-/// tried is taken.
+/// tried is taken. storage: null: the flow is steady.
 bool solve_seepage(const FlowNetwork& network, const std::vector<NodeCondition>& given,
-                   double unit_weight, std::vector<NodeWater>& water);
+                   double unit_weight, std::vector<NodeWater>& water,
+                   const Storage* storage = nullptr);
 
 /// Discharge of a pipe from its node `from` to its node `to`, m2/s.
 double discharge_of(const FlowNetwork& network, const FlowPipe& pipe, double unit_weight,

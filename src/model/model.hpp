@@ -273,7 +273,8 @@ struct Water {
 
 /// [flow]: water that flows through the joints.
 struct FlowInputs {
-  double viscosity = 1e-3;  ///< Pa s
+  double viscosity = 1e-3;      ///< Pa s
+  double bulk_modulus = 2.2e9;  ///< Pa
   Where where;
 };
 

@@ -25,7 +25,7 @@ enum class StageJoints { as_given, glued };
 enum class StageMasses { as_given, scaled };
 enum class FallingBlocks { report, wait };
 enum class LooseBlocks { go_on, stop };
-enum class Varied { strength, load, shaking, water, tilt, kh, kv, gravity, boundary };
+enum class Varied { strength, load, shaking, water, tilt, kh, kv, gravity, boundary, flow };
 
 /// Rayleigh damping: in proportion to mass and stiffness, least at one frequency.
 struct Rayleigh {

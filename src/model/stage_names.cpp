@@ -83,6 +83,12 @@ bool acts_at_first(const Model& model, const std::string& name) {
   return true;
 }
 
+bool flow_takes_time(const Model& model) {
+  return std::any_of(model.stages.begin(), model.stages.end(), [](const Stage& stage) {
+    return stage.ramp && stage.ramp->varied == Varied::flow;
+  });
+}
+
 bool installed_at_first(const Model& model, const std::string& name) {
   return std::none_of(model.stages.begin(), model.stages.end(),
                       [&](const Stage& stage) { return holds(stage.install, name); });

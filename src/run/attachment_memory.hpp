@@ -125,7 +125,7 @@ bool list_stepped(Archive& a, const std::string& of, std::vector<SteppedValue>& 
 template <class Archive>
 void list_slow_loading(Archive& a, Simulation& s) {
   SlowLoading& slow = s.attached.loads.slow;
-  std::vector<SteppedValue> gravity{slow.kh, slow.kv, slow.tilt, slow.gravity};
+  std::vector<SteppedValue> gravity{slow.kh, slow.kv, slow.tilt, slow.gravity, slow.flow};
   bool fits = list_stepped(a, "slow.gravity", gravity);
   fits = list_stepped(a, "slow.loads", slow.loads) && fits;
   fits = list_stepped(a, "slow.waters", slow.waters) && fits;
@@ -136,6 +136,7 @@ void list_slow_loading(Archive& a, Simulation& s) {
     slow.kv = gravity[1];
     slow.tilt = gravity[2];
     slow.gravity = gravity[3];
+    slow.flow = gravity[4];
   }
 }
 

@@ -56,12 +56,22 @@ void list_flow(Archive& a, Simulation& s) {
   list_member(a, "flow.rows.discharge", water.rows, &FlowRow::discharge);
   list_member(a, "flow.rows.pressure_a", water.rows, &FlowRow::pressure_a);
   list_member(a, "flow.rows.pressure_b", water.rows, &FlowRow::pressure_b);
+  if constexpr (Archive::loads) water.contents.clear();
+  list_member(a, "flow.contents.edge", water.contents, &WaterContent::edge);
+  list_member(a, "flow.contents.facing", water.contents, &WaterContent::facing);
+  list_member(a, "flow.contents.part", water.contents, &WaterContent::part);
+  list_member(a, "flow.contents.from", water.contents, &WaterContent::from);
+  list_member(a, "flow.contents.to", water.contents, &WaterContent::to);
+  auto kind = static_cast<std::uint64_t>(s.attached.loads.flow);
+  a("flow.kind", kind);
+  s.attached.loads.flow = static_cast<JointFlow>(kind);
   list_wet(a, "flow.before", water.before);
   std::vector<WetEdge> wet = s.attached.loads.wet;
   list_wet(a, "flow.wet", wet);
   if constexpr (Archive::loads) {
     const std::size_t corners = s.scene->blocks.vertex_count();
     if (water.pressure.size() != corners || water.filled.size() != corners ||
+        kind > static_cast<std::uint64_t>(JointFlow::held) ||
         water.inflow.size() != s.scene->model.waters.size() + 1 || !fits(wet, s) ||
         !fits(water.before, s))
       return a.refuse("water in joints does not fit the model");

@@ -133,7 +133,16 @@ void repeat_changes(Simulation& sim, const std::vector<StagePlan>& plans, std::s
 void set_ramp(Simulation& sim, const Stage& stage, double value) {
   const Ramp& ramp = *stage.ramp;
   const State& state = sim.motion.state;
-  if (SteppedValue* const v = slow_value(sim.attached.loads.slow, ramp.varied, ramp.target)) {
+  if (ramp.varied == Varied::flow) {
+    SteppedValue& time = sim.attached.loads.slow.flow;
+    if (value == ramp.what.range->x) {
+      time = {value, value};
+    } else {
+      begin_timed_flow(sim);
+      time.change(value, state.time);
+    }
+  } else if (SteppedValue* const v =
+                 slow_value(sim.attached.loads.slow, ramp.varied, ramp.target)) {
     if (state.steps == 0 && !is_displaced(sim.scene->model, ramp.varied, ramp.target)) {
       *v = {value, value};
     } else {
@@ -154,6 +163,10 @@ std::optional<Fault> enter_stage(Simulation& sim, const StagePlan& given, bool f
   const Stage& stage = plan.stage;
   const bool glued = stage.joints == StageJoints::glued;
   stop_gradual_change(sim);
+  // What changes at first finds water that has had no time to flow, but in a model as drawn.
+  const bool timed = stage.ramp && stage.ramp->varied == Varied::flow;
+  sim.attached.loads.flow = JointFlow::steady;
+  if (timed && sim.motion.state.steps > 0) begin_timed_flow(sim);
   // Unglue before excavation, so that the walls are not supported by joints that are no longer
   // glued. Glue after all other changes, so that joints are glued in their state at that time.
   if (!glued) glue_joints(sim, false);

@@ -86,8 +86,14 @@ void start_flow(Simulation& sim);
 void begin_flow(const Model& model, const BlockSet& blocks, Attached& attached);
 /// Water in joints follows their motion and its own levels at so many steps.
 inline constexpr std::uint64_t steps_between_flows = 50;
-/// Solves the flow of water through the joints as they are now, of a model with [flow].
+/// Solves the flow of water through the joints as they are now, of a model with [flow] where that
+/// is steady.
 void update_flow(Simulation& sim);
+/// From now on the water in joints has the time of SlowLoading::flow that passes.
+void begin_timed_flow(Simulation& sim);
+/// Solves for the water in joints at the end of a step that has been made under its pressures at
+/// the beginning, and changes the forces so that it can be made again under those at its end.
+void flow_within_step(Simulation& sim, double h_old);
 
 /// Loads the outer faces with the initial stress, on boundaries too; at creation.
 void load_boundaries_with_initial_stress(Simulation& sim);

@@ -32,11 +32,32 @@ void start_flow(Simulation& sim) {
 }
 
 void update_flow(Simulation& sim) {
-  if (!sim.scene->model.flow) return;
   Loads& loads = sim.attached.loads;
+  if (!sim.scene->model.flow || loads.flow != JointFlow::steady) return;
   if (!loads.gradual.at) sim.attached.joint_water.before.clear();
   flow_through(sim.attached.joint_water, flow_scene(sim),
                waters_at(sim.scene->model, loads, sim.motion.state.time), loads);
+}
+
+void begin_timed_flow(Simulation& sim) {
+  JointWater& water = sim.attached.joint_water;
+  water.before.clear();
+  take_contents(water, flow_scene(sim));
+  sim.attached.loads.flow = JointFlow::timed;
+}
+
+void flow_within_step(Simulation& sim, double h_old) {
+  Loads& loads = sim.attached.loads;
+  const State& state = sim.motion.state;
+  const BlockSet& blocks = sim.scene->blocks;
+  const SteppedValue& time = loads.slow.flow;
+  const WaterInStep step{sim.motion.masses, 0.5 * (h_old + state.step) * state.step,
+                         time.at(state.time, loads.gradual) - time.before};
+  const LoadsNow now = waters_at(sim.scene->model, loads, state.time);
+  for (const BlockForce& f :
+       flow_in_step(sim.attached.joint_water, flow_scene(sim), now, step, loads))
+    store(vector_of(blocks, sim.motion.forces, f.block) + f.force, blocks, sim.motion.forces,
+          f.block);
 }
 
 }  // namespace edda

@@ -103,13 +103,25 @@ bool move_blocks(Simulation& sim, double h_old, const LoadsNow& at_work) {
   constexpr int most_halvings = 40;
   constexpr double lost = 1e100;  // m
   const LoadsNow* not_yet_gathered = &at_work;
-  for (int halvings = 0; !move(sim, h_old, state.step, not_yet_gathered); ++halvings) {
+  const auto take_back = [&] {
     not_yet_gathered = nullptr;
-    if (control.last_displacement > lost || halvings == most_halvings) return false;
     undo_step(state, state.step, own.old_velocity);
     std::swap(pose.x, pose.x1);  // bitwise those of n, which the faces remember
     std::swap(pose.y, pose.y1);
     stop_ground(sim);
+  };
+  bool flows = sim.attached.loads.flow == JointFlow::timed;
+  for (int halvings = 0;;) {
+    const bool fits = move(sim, h_old, state.step, not_yet_gathered);
+    if (fits && !flows) break;
+    if (fits) {
+      flow_within_step(sim, h_old);
+      flows = false;
+      take_back();
+      continue;
+    }
+    if (control.last_displacement > lost || halvings++ == most_halvings) return false;
+    take_back();
     control.cap = 0.5 * state.step;
     control.limit = std::min(control.limit, control.cap);
     fit_step_to(sim, control.target);

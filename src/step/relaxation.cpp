@@ -351,7 +351,7 @@ void begin_gradually(Simulation& sim, const std::vector<double>& strength_factor
   constexpr double periods = 2.0;  // of what does not come in increments
   changes = changes || sim.scene->model.flow.has_value();
   if (changes) loads.gradual = {state.time, 0.0, false, least, more ? 0.0 : periods};
-  if (changes)
+  if (changes && loads.flow == JointFlow::steady)
     keep_water(sim.attached.joint_water, loads, static_cast<Index>(sim.scene->model.waters.size()));
   if (changes && !more && has_bonds(sim.motion.contacts)) hold_joints(sim);
   relaxation.estimate.least = 0.5 * relaxation.estimate.frequency;
@@ -381,6 +381,8 @@ void stop_gradual_change(Simulation& sim) {
   for (auto* of : {&slow.loads, &slow.waters}) {
     for (SteppedValue& v : *of) v.stop(time, loads.gradual);
   }
+  // Of the time of the flow less has passed.
+  slow.flow.value = slow.flow.at(time, loads.gradual);
   for (std::size_t q = 0; q < slow.boundaries.size(); ++q) {
     const bool moves = sim.scene->model.boundaries[q].type == BoundaryType::displacement;
     slow.boundaries[q].stop(time, moves ? loads.gradual.of_supports() : loads.gradual);

@@ -43,7 +43,8 @@ std::optional<VariedRow> find_varied(const std::string& vary, Place place, const
                                                              {"tilt", Varied::tilt},
                                                              {"kh", Varied::kh},
                                                              {"kv", Varied::kv},
-                                                             {"gravity", Varied::gravity}};
+                                                             {"gravity", Varied::gravity},
+                                                             {"flow", Varied::flow}};
   for (const auto& [word, varied] : by_name) {
     if (vary == word) return VariedRow{varied, none};
     const bool has_way = changes_gravity(varied) && varied != Varied::gravity;
@@ -88,6 +89,10 @@ void complete_fos(const Value& root, Reading& reading) {
   if (const auto found = find_varied(fos.vary, place_of(node, "vary"), "fos.vary", reading)) {
     fos.varied = found->varied;
     fos.target = found->target;
+    if (found->varied == Varied::flow)
+      add_fault(reading, place_of(node, "vary"), "fos.vary",
+                "\"flow\" is the time in which water flows, which has no factor",
+                "vary the strength at the end of a stage with such a ramp: fos.stage");
   }
   if (!fos.stage.empty()) {
     row_of(model.stages, fos.stage, "stage", place_of(node, "stage"), "fos.stage", reading);

@@ -399,6 +399,13 @@ void find_ramp(const Value* node, const std::string& key, Ramp& ramp, Reading& r
   if (ramp.varied == Varied::strength && least <= 0.0) refuse("has a value that is not above 0");
   const bool pressure = ramp.varied == Varied::gravity || ramp.varied == Varied::water;
   if (pressure && least < 0.0) refuse("has a value below 0");
+  if (ramp.varied == Varied::flow) {
+    if (from < 0.0 || to < from)
+      add_fault(reading, place, key + '.' + vary, "does not go from a time to a later one",
+                "give two such as [\"0 h\", \"48 h\"]");
+    if (!reading.model.flow)
+      add_fault(reading, place, key + '.' + vary, "there is no flow of water", "add [flow]");
+  }
   if (changes_gravity(ramp.varied) && reading.model.gravity == Vec2{})
     add_fault(reading, place, key + '.' + vary, "the model has no gravity that this could act on",
               "give gravity = [0, -9.81]");
