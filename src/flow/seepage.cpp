@@ -177,8 +177,12 @@ class SeepageSolver {
       const Balance b = balance_of(n);
       const double least = 1e-3 * gamma_;  // Pa: 1 mm of head
       double whole = std::max(b.gross, least * net_.nodes[n].conductance);
-      if (storage_ != nullptr)
-        whole = is_wet(n, b.net) ? b.by_pressure * (water_[n].pressure + least) : b.by_filled;
+      if (storage_ != nullptr) {
+        constexpr double rounding = 1e-6;  // of what is stored, by `small` of solve()
+        whole = is_wet(n, b.net)
+                    ? b.by_pressure * (water_[n].pressure + least) + rounding * storage_->content[n]
+                    : b.by_filled;
+      }
       largest = std::max(largest, whole > 0.0 ? std::abs(b.net) / whole : 0.0);
     }
     return largest;

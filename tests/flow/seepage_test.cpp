@@ -16,10 +16,10 @@ constexpr double gamma = 9810.0;
 FlowNetwork network_of(const std::vector<Vec2>& places,
                        const std::vector<std::tuple<Id, Id, double>>& pipes) {
   FlowNetwork net;
-  for (const Vec2 p : places) net.nodes.push_back({p, 0.0});
+  for (const Vec2 p : places) net.nodes.push_back({p, 0.0, 0.0});
   for (const auto& [from, to, conductance] : pipes) {
     const double length = norm(places[from] - places[to]);
-    net.pipes.push_back({0, from, to, 0.0, 1.0, length, conductance});
+    net.pipes.push_back({0, from, to, 0.0, 1.0, length, conductance, {}});
     net.nodes[from].conductance += conductance;
     net.nodes[to].conductance += conductance;
   }
@@ -160,6 +160,61 @@ TEST(Seepage, RandomNetworksHoldTheirConditions) {
                 gamma * (6.5 - net.nodes[n].place.y) * (w[n].pressure > 0 ? 1 : 0) + 1e-6);
     }
   }
+}
+
+/// What nodes contain changes by what flows, whatever the time that passes.
+TEST(Seepage, NoWaterIsLostInTime) {
+  std::mt19937 draw(11);
+  std::uniform_real_distribution<double> unit(0.0, 1.0);
+  int partly = 0;
+  for (int trial = 0; trial < 200; ++trial) {
+    constexpr Id wide = 8, high = 6;
+    const FlowNetwork net = random_network(draw, wide, high);
+    const std::size_t count = net.nodes.size();
+    std::vector<NodeCondition> given(count);
+    given[wide - 1] = {Kind::air, 0.0, none};
+    for (Id j = 0; j < high; ++j) {
+      const double p = gamma * (2.0 + 4.0 * unit(draw) - net.nodes[j * wide].place.y);
+      if (p > 0.0) given[j * wide] = {Kind::pressure, p, 0};
+    }
+    Storage storage;
+    storage.bulk_modulus = 2e9;
+    storage.passed = std::pow(10.0, 6.0 * unit(draw) - 1.0);
+    std::vector<NodeWater> w(count);
+    for (std::size_t n = 0; n < count; ++n) {
+      w[n] = unit(draw) < 0.5 ? NodeWater{1e5 * unit(draw), 1.0} : NodeWater{0.0, unit(draw)};
+      storage.volume.push_back(1e-4 * (0.1 + unit(draw)));
+      storage.content.push_back(storage.volume[n] * (w[n].filled + w[n].pressure / 2e9));
+      storage.acting.push_back(w[n].pressure);
+    }
+    // A pressure widens its own node, and narrows its neighbour.
+    for (Id n = 0; n + 1 < count; ++n) {
+      storage.gives.push_back({n, n, 1e-11});
+      storage.gives.push_back({n, n + 1, -4e-12});
+    }
+    ASSERT_TRUE(solve_seepage(net, given, gamma, w, &storage)) << trial;
+    std::vector<double> out(count, 0.0);
+    for (const FlowPipe& pipe : net.pipes) {
+      const double q = discharge_of(net, pipe, gamma, w);
+      out[pipe.from] += q;
+      out[pipe.to] -= q;
+    }
+    for (std::size_t n = 0; n < count; ++n) {
+      if (given[n].kind != Kind::inside) continue;
+      double volume = storage.volume[n];
+      for (const Storage::Give& g : storage.gives) {
+        if (g.node == n) volume += g.compliance * (w[g.other].pressure - storage.acting[g.other]);
+      }
+      const double now = volume * (w[n].filled + w[n].pressure / 2e9);
+      EXPECT_NEAR(now - storage.content[n] + storage.passed * out[n], 0.0,
+                  1e-7 * storage.volume[n] +
+                      1e-8 * storage.passed * gamma * 10.0 * net.nodes[n].conductance)
+          << trial << ": node " << n;
+      EXPECT_TRUE(w[n].pressure == 0.0 || w[n].filled == 1.0);
+      if (w[n].filled > 0.0 && w[n].filled < 1.0) ++partly;
+    }
+  }
+  EXPECT_GT(partly, 500);
 }
 
 TEST(Seepage, WhatNoWaterReachesIsDry) {

@@ -241,6 +241,7 @@ unit_weight = 1e4
 sides = ["left"]
 [flow]
 viscosity = "1.3 mPa s"
+bulk_modulus = "2 GPa"
 [[shaking]]
 name = "quake"
 acceleration = "tests/model/quake.at2"

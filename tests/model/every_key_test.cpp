@@ -340,6 +340,7 @@ void expect_every_load_key(const Model& m) {
   EXPECT_EQ(m.waters[2].sides, std::vector<std::string>{"left"});
   ASSERT_TRUE(m.flow);
   EXPECT_EQ(m.flow->viscosity, 1.3e-3);
+  EXPECT_EQ(m.flow->bulk_modulus, 2e9);
   EXPECT_EQ(m.joints[1].aperture, 2e-4);
   EXPECT_EQ(m.joints[1].residual_aperture, 3e-5);
   EXPECT_EQ(m.joints[1].largest_aperture, 1e-3);

@@ -308,7 +308,12 @@ TEST(StageResume, ResumesToTheSameBitsWithFlow) {
   add("cohesion = 1e3\n", "aperture = 2e-4\n");
   add("kn = 2e8\n", "aperture = 3e-4\n");
   add("name = \"wet\"\n", "sides = [\"right\"]\n");
-  expect_resumed("[flow]\n[[water]]\nname = \"deep\"\nlevel = 4\nsides = [\"left\"]\n" + model);
+  model = "[flow]\n[[water]]\nname = \"deep\"\nlevel = 4\nsides = [\"left\"]\n" + model;
+  expect_resumed(model);
+  // In a time, too: of the stages before the last one.
+  const std::string stage = "name = \"dig\"\n";
+  model.insert(model.find(stage), "ramp = { flow = [0, 50], steps = 2 }\n");
+  expect_resumed(model);
 }
 
 /// Joints with dashpots of their own.

@@ -1,7 +1,8 @@
-// Water that flows through joints, against closed-form solutions: validation.md rows 92 to 94.
+// Water that flows through joints, against closed-form solutions: validation.md rows 92 to 98.
 #include <cmath>
 #include <numbers>
 
+#include "step/changes.hpp"
 #include "step/faces_now.hpp"
 #include "verification/record.hpp"
 #include "verification/scene.hpp"
@@ -106,6 +107,142 @@ TEST(Flow, RadialFlowToATunnel) {
   const std::vector<double>& inflow = sim.attached.joint_water.inflow;
   expect_relative({94, "from the ring", "discharge", "m2/s"}, inflow[0], exact, 1e-2);
   expect_relative({94, "into the tunnel", "discharge", "m2/s"}, -inflow[1], exact, 1e-2);
+}
+
+/// Part of a step of pressure at x = 0 that is left to come at x, of a length that ends there in an
+/// impermeable wall: the part of it at the time T = c t/L^2 (Carslaw & Jaeger 1959, section 3.3).
+double to_come(double x_over_length, double T) {
+  double sum = 0.0;
+  for (int m = 0; m < 200; ++m) {
+    const double k = (m + 0.5) * pi;
+    sum += 2.0 / k * std::sin(k * x_over_length) * std::exp(-k * k * T);
+  }
+  return sum;
+}
+
+TEST(Flow, DiffusionAlongAJoint) {
+  // Rigid walls: c = h^2 K/(12 mu).
+  constexpr int pipes = 100, increments = 400;
+  constexpr double h = 2e-4, K = 2.2e9, length = 50.0, p0 = 1e5;
+  constexpr double c = h * h * K / (12.0 * viscosity);
+  FlowNetwork net;
+  net.nodes.resize(pipes + 1);
+  constexpr double part = length / pipes;
+  for (Id n = 0; n <= pipes; ++n) net.nodes[n].place = {n * part, 0.0};
+  for (Id n = 0; n < pipes; ++n) {
+    const double conductance = conductance_of(h, h, part, viscosity);
+    net.pipes.push_back({0, n, n + 1, 0.0, 1.0, part, conductance, {}});
+    for (const Id end : {n, n + 1}) {
+      net.nodes[end].conductance += conductance;
+      net.nodes[end].volume += 0.5 * part * h;
+    }
+  }
+  std::vector<NodeCondition> given(net.nodes.size());
+  given[0] = {NodeCondition::Kind::pressure, p0, 0};
+  std::vector<NodeWater> water(net.nodes.size(), {0.0, 1.0});
+  Storage storage;
+  storage.bulk_modulus = K;
+  storage.passed = 0.5 * length * length / c / increments;
+  FurthestOff middle, end;
+  for (int k = 1; k <= increments; ++k) {
+    storage.volume.clear();
+    storage.content.clear();
+    storage.acting.clear();
+    for (std::size_t n = 0; n < net.nodes.size(); ++n) {
+      storage.volume.push_back(net.nodes[n].volume);
+      storage.content.push_back(net.nodes[n].volume * (water[n].filled + water[n].pressure / K));
+      storage.acting.push_back(water[n].pressure);
+    }
+    ASSERT_TRUE(solve_seepage(net, given, gamma, water, &storage));
+    const double T = 0.5 * k / increments;
+    if (k < 2 * increments / 5) continue;
+    middle.see(water[pipes / 2].pressure, p0 * (1.0 - to_come(0.5, T)));
+    end.see(water[pipes].pressure, p0 * (1.0 - to_come(1.0, T)));
+  }
+  middle.expect({95, "in the middle", "pressure", "Pa"}, 1e-2);
+  end.expect({95, "at the closed end", "pressure", "Pa"}, 1e-2);
+}
+
+/// Columns of 0.5 m side by side on a joint that drains to the left, loaded by 10 kPa more. They
+/// neither hold each other nor bend.
+std::string columns(const std::string& flow, const std::string& time) {
+  return "gravity = [0, 0]\n[materials.rock]\ndensity = 2500\nyoung = 1e12\npoisson = 0.2\n"
+         "[joints.base]\nfriction_angle = 30\nkn = 1e12\naperture = 1e-4\n"
+         "[joints.side]\nfriction_angle = 0\nkn = 1e10\naperture = 0\n[flow]\n" +
+         flow +
+         "[domain]\noutline = [[0, 0], [10, 0], [10, 2], [0, 2]]\nmaterial = 'rock'\n"
+         "[[trace]]\npoints = [[0, 1], [10, 1]]\njoint = 'base'\n"
+         "[[joint_set]]\nangle = 90\nspacing = 0.5\norigin = [0, 0]\njoint = 'side'\n"
+         "region = [[0, 1], [10, 1], [10, 2], [0, 2]]\n"
+         "[[boundary]]\nsides = ['bottom']\ntype = 'fixed'\n"
+         "[[boundary]]\nsides = ['left', 'right']\ntype = 'roller'\n"
+         "[[water]]\nlevel = 1.01\nsides = ['left']\n"
+         "[[load]]\nname = 'dead'\nalong = [[0, 2], [10, 2]]\npressure = 15e3\n"
+         "[[load]]\nname = 'more'\nalong = [[0, 2], [10, 2]]\npressure = 10e3\n"
+         "[[stage]]\nuntil = 'equilibrium'\n[[stage]]\nactivate = ['more']\nramp = " +
+         time + "\n";
+}
+/// Pressure above that of the water on the left, by the place along the joint.
+std::vector<std::pair<double, double>> excess_pressures(const Simulation& sim) {
+  std::vector<std::pair<double, double>> found;
+  const BlockSet& b = sim.scene->blocks;
+  for (Id v = 0; v < b.vertex_count(); ++v) {
+    const Vec2 place = b.vertex(v) + b.origin;
+    if (std::abs(place.y - 1.0) < 1e-6 && sim.attached.joint_water.filled[v] > 0.0)
+      found.emplace_back(place.x, sim.attached.joint_water.pressure[v] - gamma * 0.01);
+  }
+  return found;
+}
+
+TEST(Flow, ConsolidationOfAJoint) {
+  const PreparedRun run = settled(columns("", "{ flow = [0, 0.6], steps = 100 }"));
+  constexpr double stored = 1e-12 + 1e-4 / 2.2e9;  // m/Pa: 1/kn + h/K
+  constexpr double c = 1e-12 / (12.0 * viscosity) / stored, T = c * 0.6 / 100.0;
+  constexpr double at_first = 1e4 * 1e-12 / stored;
+  FurthestOff far;
+  for (const auto& [x, p] : excess_pressures(run.sim)) {
+    if (x > 5.0) far.see(p, at_first * to_come(x / 10.0, T));
+  }
+  far.expect({96, "after 0.6 s", "excess pressure", "Pa"}, 1e-2);
+}
+
+TEST(Flow, WaterThatIsShutIn) {
+  // K = kn h: water takes half of a load that comes while it has no time to flow.
+  const PreparedRun run =
+      settled(columns("bulk_modulus = 1e8\n", "{ flow = [0, 1e-9], steps = 1 }"));
+  FurthestOff far;
+  for (const auto& [x, p] : excess_pressures(run.sim)) {
+    if (x > 2.5 && x < 7.5) far.see(p, 5e3);
+  }
+  far.expect({97, "K = kn h", "pressure that the load causes", "Pa"}, 1e-3);
+}
+
+TEST(Flow, TimeEnoughIsSteadyFlow) {
+  // A slope whose groundwater rises: after a long time the water is that of a stage without time.
+  const PreparedRun run = settled(
+      rock("kn = 1e10\naperture = 2e-4\ncohesion = 1e6\n") +
+      "[slope]\ntoe = [0, 0]\nheight = 20\nface_angle = 60\nbase_y = -10\nextent = [-20, 40]\n"
+      "[domain]\nmaterial = 'rock'\n[[joint_set]]\nangle = 20\nspacing = 6\n"
+      "[[joint_set]]\nangle = -70\nspacing = 6\n"
+      "[[boundary]]\nsides = ['left', 'right', 'bottom']\ntype = 'roller'\n"
+      "[[water]]\nname = 'dry'\nlevel = 2\nsides = ['right']\n"
+      "[[water]]\nname = 'wet'\nlevel = 15\nsides = ['right']\n"
+      "[[stage]]\nuntil = 'equilibrium'\n"
+      "[[stage]]\nactivate = ['wet']\ndeactivate = ['dry']\n"
+      "ramp = { flow = ['0 h', '100 h'], steps = 10 }\n");
+  const std::vector<double> in_time = run.sim.attached.joint_water.pressure;
+  Simulation steady = run.sim;
+  steady.attached.loads.flow = JointFlow::steady;
+  update_flow(steady);
+  const std::vector<double>& at_once = steady.attached.joint_water.pressure;
+  double most = 0.0, off = 0.0;
+  for (std::size_t v = 0; v < at_once.size(); ++v) {
+    most = std::max(most, at_once[v]);
+    off = std::max(off, std::abs(at_once[v] - in_time[v]));
+  }
+  EXPECT_GT(most, 1e5);
+  expect_at_most({98, "after 100 h", "largest difference of pressure over the largest", ""},
+                 off / most, 1e-6);
 }
 
 }  // namespace
