@@ -121,10 +121,10 @@ TEST(BadModel, Flow) {
             {flow + second + "level = 3\nsides = [\"left\"]\nunit_weight = 1e4\n", 49,
              "water.1.unit_weight", "differs from that of water.0"}},
            {aperture,
-            {flow + "[[stage]]\ndamping = { adaptive = 0.8 }\nramp = { flow = [60, 0] }\n", 48,
+            {flow + "[[stage]]\nduration = 0.05\nramp = { flow = [60, 0], steps = 1 }\n", 48,
              "stage.0.ramp.flow", "does not go from a time to a later one"}},
            {aperture,
-            {"[[stage]]\ndamping = { adaptive = 0.8 }\nramp = { flow = [0, 60] }\n", 45,
+            {"[[stage]]\nduration = 0.05\nramp = { flow = [0, 60], steps = 1 }\n", 45,
              "stage.0.ramp.flow", "there is no flow of water"}},
            {aperture, {flow + "[fos]\nvary = \"flow\"\n", 47, "fos.vary", "has no factor"}},
        }) {
