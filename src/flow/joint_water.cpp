@@ -1,6 +1,7 @@
 #include "flow/joint_water.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <span>
 #include <tuple>
@@ -81,10 +82,11 @@ class Flow {
   void report() {
     joints_.rows.clear();
     joints_.inflow.assign(s_.model.waters.size() + 1, 0.0);
+    std::vector<double> out_of(net_.nodes.size(), 0.0);  // into joints
     for (const FlowPipe& pipe : net_.pipes) {
       const double q = discharge_of(net_, pipe, gamma_, water_);
-      note_inflow(pipe.from, q);
-      note_inflow(pipe.to, -q);
+      out_of[pipe.from] += q;
+      out_of[pipe.to] -= q;
       const double through = q * (pipe.part_to - pipe.part_from);
       const PipeLevels levels = levels_of(net_, pipe, gamma_, water_);
       const auto pressure = [&](Id node, double level) {
@@ -104,6 +106,7 @@ class Flow {
       joints_.rows.back().discharge += through;
       joints_.rows.back().pressure_b = row.pressure_b;
     }
+    note_inflow(out_of);
   }
 
   /// Water on the walls of the joints, and outside them.
@@ -185,6 +188,29 @@ class Flow {
       const Water& water = s_.model.waters[static_cast<std::size_t>(head.water)];
       take(given, head.water, level_of(water, s_.blocks.origin, node.place.x), node);
     }
+    for (std::size_t q = 0; q < s_.model.waters.size(); ++q) {
+      if (s_.model.waters[q].rain) let_rain(static_cast<Index>(q));
+    }
+  }
+
+  /// What falls on ground between two joints goes to both.
+  void let_rain(Index water) {
+    const auto row = static_cast<std::size_t>(water);
+    const Water& rain = s_.model.waters[row];
+    const double factor = rain.history.empty() ? 1.0 : now_.rise[row];
+    const double rate =
+        *rain.rain * factor * now_.weight[row] / (rain.unit_weight * thickness_);  // m/s
+    for (const OpenPart& open : net_.open) {
+      const std::array ends{open.from_node, open.to_node};
+      const double parts = static_cast<double>(
+          std::count_if(ends.begin(), ends.end(), [](Id n) { return n != no_id; }));
+      for (const Id n : ends) {
+        if (n == no_id || !(rate * open.sky > 0.0)) continue;
+        NodeCondition& given = given_[n];
+        if (given.kind != Kind::air && given.kind != Kind::rain) continue;
+        given = {Kind::rain, 0.0, water, given.source + rate * open.sky / parts};
+      }
+    }
   }
 
   /// The node has the pressure of this water, of this level before it rises, where that is higher.
@@ -201,12 +227,15 @@ class Flow {
     return {first, std::lower_bound(first, all.end(), edge + 1, before)};
   }
 
-  void note_inflow(Id node, double out_of_it) {
-    const NodeCondition& given = given_[node];
-    if (given.kind == Kind::inside) return;
-    const std::size_t row =
-        given.water == none ? joints_.inflow.size() - 1 : static_cast<std::size_t>(given.water);
-    joints_.inflow[row] += out_of_it;
+  /// Where rain falls on an outcrop from which water leaves, it leaves to the open air.
+  void note_inflow(const std::vector<double>& out_of) {
+    for (std::size_t n = 0; n < out_of.size(); ++n) {
+      const NodeCondition& given = given_[n];
+      if (given.kind == Kind::inside) continue;
+      const bool open = given.water == none || (given.kind == Kind::rain && out_of[n] < 0.0);
+      joints_.inflow[open ? joints_.inflow.size() - 1 : static_cast<std::size_t>(given.water)] +=
+          out_of[n];
+    }
   }
 
   JointWater& joints_;

@@ -122,6 +122,8 @@ class Builder {
  public:
   Builder(const FlowScene& scene, const FlowGround& ground, bool with_boundaries = true)
       : s_(scene), ground_(ground), corners_(scene.blocks.vertex_count()) {
+    rains_ = std::any_of(scene.model.waters.begin(), scene.model.waters.end(),
+                         [](const Water& water) { return water.rain.has_value(); });
     supported_.assign(scene.blocks.vertex_count(), 0);
     for (std::size_t q = 0; q < ground.along.size() && with_boundaries; ++q) {
       if (!scene.intervals.boundaries[q].acts()) continue;
@@ -343,15 +345,39 @@ class Builder {
   void add_open_parts() {
     for (const Gap& gap : gaps_) {
       const Id from = net_.node_of[gap.from_corner], to = net_.node_of[gap.to_corner];
-      net_.open.push_back({gap.edge, gap.from, gap.to, gap.open ? no_id : from, gap.wet});
+      net_.open.push_back({gap.edge, gap.from, gap.to, gap.open ? no_id : from, gap.wet, from, to,
+                           gap.open && rains_ ? width_under_sky(gap) : 0.0});
       if (!gap.open) continue;
       if (from != no_id) net_.outcrops.push_back({from, gap.edge, gap.from, gap.wet});
       if (to != no_id) net_.outcrops.push_back({to, gap.edge, gap.to, gap.wet});
     }
   }
 
+  /// Of ground that faces up, less what the undersides of rock above it cover.
+  double width_under_sky(const Gap& gap) const {
+    const auto corner = [&](Id v) { return at(s_.pose.x, s_.pose.y, v); };
+    const Vec2 p = corner(gap.edge), u = corner(s_.blocks.next[gap.edge]) - p;
+    const double left = p.x + gap.to * u.x, right = p.x + gap.from * u.x;
+    std::vector<Part> covered;
+    for (Id v = 0; v < s_.blocks.vertex_count() && right > left; ++v) {
+      const Vec2 q = corner(v), w = corner(s_.blocks.next[v]) - q;
+      const Part part{std::max(left, q.x), std::min(right, q.x + w.x)};
+      if (!(part.to > part.from) || s_.state.alive[s_.blocks.vertex_block[v]] == 0) continue;
+      const double x = 0.5 * (part.from + part.to);
+      if (q.y + w.y * (x - q.x) / w.x > p.y + u.y * (x - p.x) / u.x) covered.push_back(part);
+    }
+    std::sort(covered.begin(), covered.end(), [](Part c, Part d) { return c.from < d.from; });
+    double width = std::max(0.0, right - left), reached = left;
+    for (const Part c : covered) {
+      width -= std::max(0.0, c.to - std::max(reached, c.from));
+      reached = std::max(reached, c.to);
+    }
+    return width;
+  }
+
   const FlowScene& s_;
   const FlowGround& ground_;
+  bool rains_ = false;
   std::vector<std::uint8_t> supported_;  // [nv] 1: the edge lies along a boundary that acts
   std::vector<Overlap> overlaps_;
   Nodes corners_;

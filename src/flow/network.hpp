@@ -58,8 +58,10 @@ struct CoveredPart {
 struct OpenPart {
   Id edge;
   double from, to;
-  Id void_node;  ///< of an enclosed void, which is one node; no_id: it lies open
-  bool wet;      ///< open water may be there: it goes on from where water was drawn
+  Id void_node;           ///< of an enclosed void, which is one node; no_id: it lies open
+  bool wet;               ///< open water may be there: it goes on from where water was drawn
+  Id from_node, to_node;  ///< at its ends; no_id: no joint is there
+  double sky = 0.0;       ///< m: its width as seen from above, under the open sky
 };
 
 /// A node at the end of what lies open, where the edge has the coordinate s = at.

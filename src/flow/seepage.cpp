@@ -26,6 +26,8 @@ class SeepageSolver {
         water_[n] = {given_[n].pressure, 1.0};
       } else if (given_[n].kind == Kind::air) {
         water_[n] = {0.0, 0.0};
+      } else if (given_[n].kind == Kind::rain) {
+        water_[n].pressure = 0.0;
       } else if (water_[n].pressure > 0.0) {
         water_[n].filled = 1.0;
       }
@@ -65,14 +67,18 @@ class SeepageSolver {
   void begin() {
     highest_ = -std::numeric_limits<double>::infinity();
     for (std::size_t n = 0; n < given_.size(); ++n) {
-      if (given_[n].kind == Kind::pressure) highest_ = std::max(highest_, potential(n));
+      if (gives(n)) highest_ = std::max(highest_, potential(n));
     }
     for (const Id n : inside_) {
       if (water_[n].pressure > 0.0 || water_[n].filled > 0.0) return;
     }
     for (const Id n : inside_) {
+      if (given_[n].kind == Kind::rain) continue;
       if (const double p = most_of(n); p > 0.0) water_[n] = {p, 1.0};
     }
+  }
+  bool gives(std::size_t n) const {
+    return given_[n].kind == Kind::pressure || given_[n].kind == Kind::rain;
   }
   double most_of(Id n) const { return highest_ - gamma_ * net_.nodes[n].place.y; }
 
@@ -112,7 +118,7 @@ class SeepageSolver {
     std::vector<std::uint8_t> connected(given_.size(), storage_ == nullptr ? 0 : 1);
     std::vector<Id> next;
     for (Id n = 0; n < given_.size(); ++n) {
-      if (given_[n].kind == Kind::pressure) next.push_back(n);
+      if (gives(n)) next.push_back(n);
     }
     while (!next.empty()) {
       const Id n = next.back();
@@ -122,7 +128,7 @@ class SeepageSolver {
       for (std::size_t q = begin_[n]; q < begin_[n + 1]; ++q) next.push_back(of_node_[q].node);
     }
     for (Id n = 0; n < given_.size(); ++n) {
-      if (given_[n].kind != Kind::inside) continue;
+      if (given_[n].kind != Kind::inside && given_[n].kind != Kind::rain) continue;
       if (connected[n] != 0) {
         inside_.push_back(n);
       } else {
@@ -143,6 +149,8 @@ class SeepageSolver {
       b.by_pressure += conductance * conducts;
       if (drop > 0.0) b.by_filled += conductance * drop;
     }
+    b.net -= given_[n].source;
+    b.gross += given_[n].source;
     if (storage_ != nullptr) store(n, b);
     return b;
   }
@@ -150,6 +158,7 @@ class SeepageSolver {
   /// Of the time that passes, with what the node stores: m2.
   void store(Id n, Balance& b) const {
     for (double* value : {&b.net, &b.by_pressure, &b.by_filled}) *value *= storage_->passed;
+    if (given_[n].kind == Kind::rain) return;
     const NodeWater w = water_[n];
     const double volume = volume_of(n), part = w.filled + w.pressure / storage_->bulk_modulus;
     b.net += volume * part - storage_->content[n];
@@ -175,6 +184,7 @@ class SeepageSolver {
     double largest = 0.0;
     for (const Id n : inside_) {
       const Balance b = balance_of(n);
+      if (runs_off(n, b.net)) continue;
       const double least = 1e-3 * gamma_;  // Pa: 1 mm of head
       double whole = std::max(b.gross, least * net_.nodes[n].conductance);
       if (storage_ != nullptr) {
@@ -188,8 +198,13 @@ class SeepageSolver {
     return largest;
   }
 
+  /// Whether more rain falls than the joint takes in.
+  bool runs_off(Id n, double net) const {
+    return given_[n].kind == Kind::rain && water_[n].filled >= 1.0 && net < 0.0;
+  }
   /// Whether the unknown of the node is its pressure.
   bool is_wet(Id n, double net) const {
+    if (given_[n].kind == Kind::rain) return false;
     return water_[n].pressure > 0.0 || (water_[n].filled >= 1.0 && net <= 0.0);
   }
 
@@ -229,7 +244,7 @@ class SeepageSolver {
     for (std::size_t k = 0; k < inside_.size(); ++k) row[inside_[k]] = static_cast<Id>(k);
     const auto rows = static_cast<Eigen::Index>(inside_.size());
     std::vector<Eigen::Triplet<double>> entries;
-    std::vector<std::uint8_t> wet(inside_.size());
+    std::vector<std::uint8_t> wet(inside_.size()), full(inside_.size());  // full: of rain
     Eigen::VectorXd right(rows);
     const double time = storage_ == nullptr ? 1.0 : storage_->passed;
     const auto add = [&](std::size_t k, std::size_t column, double value) {
@@ -238,6 +253,12 @@ class SeepageSolver {
     for (std::size_t k = 0; k < inside_.size(); ++k) {
       const Balance b = balance_of(inside_[k]);
       wet[k] = is_wet(inside_[k], b.net) ? 1 : 0;
+      if (runs_off(inside_[k], b.net)) {
+        full[k] = 1;
+        add(k, k, 1.0);
+        right[static_cast<Eigen::Index>(k)] = 0.0;
+        continue;
+      }
       right[static_cast<Eigen::Index>(k)] = -b.net;
       // What is cut off stays as it is.
       constexpr double cut_off = 1e-14;
@@ -248,9 +269,10 @@ class SeepageSolver {
     }
     for (std::size_t k = 0; k < inside_.size(); ++k) {
       const Id n = inside_[k];
+      if (full[k] != 0) continue;
       for (std::size_t q = begin_[n]; q < begin_[n + 1]; ++q) {
         const auto [m, conductance] = of_node_[q];
-        if (row[m] == no_id) continue;
+        if (row[m] == no_id || full[row[m]] != 0) continue;
         const double drop = potential(n) - potential(m);
         const bool leaves = drop >= 0.0;
         if (wet[row[m]] != 0) {

@@ -22,11 +22,13 @@ struct NodeCondition {
   enum class Kind : std::uint8_t {
     inside,    ///< nothing: water neither comes nor goes
     pressure,  ///< its pressure
-    air        ///< atmospheric pressure: water may leave, none comes in
+    air,       ///< atmospheric pressure: water may leave, none comes in
+    rain       ///< the same, but for `source`, as far as the joints take it in
   };
   Kind kind = Kind::inside;
   double pressure = 0.0;  ///< Pa
-  Index water = none;     ///< which gives the pressure
+  Index water = none;     ///< which gives the pressure, or the rain
+  double source = 0.0;    ///< m2/s
 };
 
 struct NodeWater {

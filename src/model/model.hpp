@@ -262,6 +262,7 @@ struct Water {
   std::string name;
   std::vector<Vec2> table;           ///< from left to right; either this or `level`
   std::optional<double> level;       ///< m
+  std::optional<double> rain;        ///< m/s; in place of either
   std::vector<std::string> sides;    ///< where the rock has this head, or
   std::vector<Vec2> along;           ///< the polyline along which it has
   std::vector<std::string> flooded;  ///< flooded openings

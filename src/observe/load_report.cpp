@@ -120,6 +120,12 @@ std::vector<std::string> load_report(const Simulation& sim) {
   }
   for (std::size_t q = 0; q < sim.scene->model.waters.size(); ++q) {
     const Water& water = sim.scene->model.waters[q];
+    if (water.rain) {
+      lines.push_back(fmt::format("{} of {:.4g} mm/h on the ground under the open sky{}",
+                                  row_label("water", water.name, q), 3.6e6 * *water.rain,
+                                  range_of(water.rise, "times", "")));
+      continue;
+    }
     if (water.level) {
       lines.push_back(fmt::format("{} at the level {:.4g} m in the rock, where its line meets {}{}",
                                   row_label("water", water.name, q), *water.level,

@@ -91,6 +91,21 @@ TEST(Seepage, WaterFallsFromACrossing) {
   EXPECT_NEAR(discharge_of(net, net.pipes[1], gamma, w), 1e-9 * p0, 1e-16);
 }
 
+TEST(Seepage, JointsTakeInRainAsFarAsTheyCan) {
+  // Down two joints one after the other: gravity alone drives 5 gamma C of them.
+  const double C = 1e-9, most = 5.0 * gamma * C;
+  const FlowNetwork net = network_of({{0, 10}, {0, 5}, {0, 0}}, {{0, 1, C}, {1, 2, C}});
+  for (const double rain : {0.3 * most, 0.999 * most, 4.0 * most}) {
+    const std::vector<NodeWater> w =
+        solved(net, {{Kind::rain, 0.0, 1, rain}, {}, {Kind::air, 0.0, none}});
+    const double in = std::min(rain, most);
+    EXPECT_EQ(w[0].pressure, 0.0);
+    EXPECT_NEAR(w[0].filled, in / most, 1e-8);
+    EXPECT_NEAR(discharge_of(net, net.pipes[0], gamma, w), in, 1e-8 * most);
+    EXPECT_NEAR(discharge_of(net, net.pipes[1], gamma, w), in, 1e-8 * most);
+  }
+}
+
 TEST(Seepage, NoAirFeedsWater) {
   // An outcrop above, one below: nothing flows from the upper to the lower.
   const FlowNetwork net = network_of({{0, 10}, {0, 5}, {0, 0}}, {{0, 1, 1e-9}, {1, 2, 1e-9}});
@@ -122,6 +137,7 @@ FlowNetwork random_network(std::mt19937& draw, Id wide, Id high) {
 
 TEST(Seepage, RandomNetworksHoldTheirConditions) {
   std::mt19937 draw(7);
+  std::uniform_real_distribution<double> unit(0.0, 1.0);
   for (int trial = 0; trial < 500; ++trial) {
     constexpr Id wide = 12, high = 9;
     const FlowNetwork net = random_network(draw, wide, high);
@@ -130,6 +146,11 @@ TEST(Seepage, RandomNetworksHoldTheirConditions) {
       const Id left = j * wide, right = left + wide - 1;
       const double p = gamma * (6.5 - net.nodes[left].place.y);
       given[left] = p > 0.0 ? NodeCondition{Kind::pressure, p, 0} : NodeCondition{};
+      // Half of the trials have rain on the top.
+      if (j + 1 == high && trial % 2 == 1) {
+        for (Id i = 1; i + 1 < wide; ++i)
+          given[left + i] = {Kind::rain, 0.0, 2, gamma * 1e-9 * std::pow(10.0, 3.0 * unit(draw))};
+      }
       const double q = gamma * (2.0 - net.nodes[right].place.y);
       given[right] =
           q > 0.0 ? NodeCondition{Kind::pressure, q, 1} : NodeCondition{Kind::air, 0.0, none};
@@ -154,10 +175,18 @@ TEST(Seepage, RandomNetworksHoldTheirConditions) {
         EXPECT_TRUE(w[n].pressure == 0.0 || w[n].filled == 1.0);
       } else if (given[n].kind == Kind::air) {
         EXPECT_GE(gain[n], -1e-15) << "no water comes out of the air";
+      } else if (given[n].kind == Kind::rain) {
+        const double more = given[n].source + gain[n], off = 1e-8 * (size[n] + given[n].source);
+        EXPECT_EQ(w[n].pressure, 0.0);
+        EXPECT_GE(more, -off) << "no more than the rain";
+        if (w[n].filled < 1.0) {
+          EXPECT_LE(more, off + 1e-8 * gamma * 1e-3 * net.nodes[n].conductance) << trial;
+        }
       }
-      // No pressure anywhere above that of the higher water.
+      // No pressure anywhere above that of the higher water, or of water that stands up to rain.
+      const double top = trial % 2 == 1 ? 9.0 : 6.5;
       EXPECT_LE(w[n].pressure,
-                gamma * (6.5 - net.nodes[n].place.y) * (w[n].pressure > 0 ? 1 : 0) + 1e-6);
+                gamma * (top - net.nodes[n].place.y) * (w[n].pressure > 0 ? 1 : 0) + 1e-6);
     }
   }
 }

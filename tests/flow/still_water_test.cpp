@@ -92,5 +92,42 @@ TEST(Flow, NothingDrainsIntoTheRock) {
   }
 }
 
+/// Rain falls on what is under the open sky: ground beside and on an overhang, not below it, nor in
+/// a tunnel. Joints that can take in all of it do.
+TEST(Flow, RainFallsOnGroundUnderTheSky) {
+  for (const bool mirrored : {false, true}) {
+    std::string outline;
+    for (const Vec2 p : {Vec2{0, 0},
+                         {20, 0},
+                         {20, 5},
+                         {12, 5},
+                         {12, 7},
+                         {16, 7},
+                         {16, 9},
+                         {10, 9},
+                         {10, 5},
+                         {0, 5}})
+      outline += (outline.empty() ? "[[" : ", [") + number(mirrored ? -p.x : p.x) + ", " +
+                 number(p.y) + "]";
+    const double sign = mirrored ? -1.0 : 1.0;
+    const Simulation sim = scene(
+        rock + "[flow]\n[solver]\nduration = 1\n[domain]\nmaterial = 'rock'\noutline = " + outline +
+        "]\n[[joint_set]]\nangle = " + number(sign * 20) +
+        "\nspacing = 1.5\njoint = 'bedding'\n[[joint_set]]\nangle = " + number(-sign * 70) +
+        "\nspacing = 1.5\njoint = 'bedding'\n[[opening]]\nname = 'tunnel'\nshape = { kind = "
+        "'circle', "
+        "at = [" +
+        number(sign * 5) +
+        ", 2.5], width = 3 }\n"
+        "[[boundary]]\nsides = ['left', 'right', 'bottom']\ntype = 'roller'\n"
+        "[[water]]\nlevel = 0.5\nsides = ['left', 'right']\n"
+        "[[water]]\nrain = '0.36 mm/h'\n");
+    const JointWater& water = sim.attached.joint_water;
+    EXPECT_EQ(water.not_found, 0u);
+    EXPECT_NEAR(water.inflow[1], 20.0 * 1e-7, 1e-6 * 20.0 * 1e-7) << mirrored;
+    EXPECT_NEAR(water.inflow[0] + water.inflow[1] + water.inflow[2], 0.0, 1e-6 * water.inflow[1]);
+  }
+}
+
 }  // namespace
 }  // namespace edda::flow_test

@@ -126,6 +126,11 @@ TEST(BadModel, Flow) {
            {aperture,
             {"[[stage]]\nduration = 0.05\nramp = { flow = [0, 60], steps = 1 }\n", 45,
              "stage.0.ramp.flow", "there is no flow of water"}},
+           {aperture,
+            {flow + second + "rain = 1e-6\nlevel = 3\n", 48, "water.1.level", "rain is given too"}},
+           {aperture, {flow + second + "rain = 0\n", 47, "water.1.rain", "out of range"}},
+           {aperture,
+            {second + "rain = '5 mm/h'\n", 44, "water.0.rain", "through joints: add [flow]"}},
            {aperture, {flow + "[fos]\nvary = \"flow\"\n", 47, "fos.vary", "has no factor"}},
        }) {
     expect_flow_fault(joint, bad);

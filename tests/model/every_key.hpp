@@ -239,6 +239,10 @@ along = [[0, 0], [0, 9]]
 table = [[0, 4], [30, 5]]
 unit_weight = 1e4
 sides = ["left"]
+[[water]]
+name = "storm"
+rain = "36 mm/h"
+unit_weight = 1e4
 [flow]
 viscosity = "1.3 mPa s"
 bulk_modulus = "2 GPa"

@@ -334,7 +334,8 @@ void expect_every_load_key(const Model& m) {
   EXPECT_EQ(m.loads[1].factor.value, (std::vector<double>{0.0, 2.5}));
   EXPECT_EQ(m.loads[2].within.size(), 3U);
   EXPECT_EQ(m.loads[2].body_force, (Vec2{1e3, -5.0}));
-  ASSERT_EQ(m.waters.size(), 3U);
+  ASSERT_EQ(m.waters.size(), 4U);
+  EXPECT_NEAR(*m.waters[3].rain, 1e-5, 1e-20);
   EXPECT_EQ(m.waters[1].level, 3.0);
   EXPECT_EQ(m.waters[1].along, (std::vector<Vec2>{{0, 0}, {0, 9}}));
   EXPECT_EQ(m.waters[2].sides, std::vector<std::string>{"left"});

@@ -8,6 +8,17 @@ namespace {
 
 void check_water(const Value* node, const Water& water, Reading& reading) {
   const std::string& key = water.where.key;
+  if (given(node, "rain")) {
+    for (const char* name : {"table", "level", "sides", "along", "flooded"}) {
+      if (given(node, name))
+        add_fault(reading, find(node, name)->place, key + "." + name, "rain is given too",
+                  "give one of them, or a second [[water]]");
+    }
+    if (!reading.model.flow)
+      add_fault(reading, find(node, "rain")->place, key + ".rain",
+                "belongs to water that flows through joints", "add [flow], or leave it out");
+    return;
+  }
   if (!reading.model.flow && !given(node, "table") && !given(node, "level")) {
     add_fault(reading, node->place, key + ".table", "is missing",
               "give its level from left to right, such as table = [[0, 5], [20, 5]]");
