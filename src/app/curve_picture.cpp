@@ -14,6 +14,7 @@ std::string axis_of(const std::string& vary) {
   if (vary == "tilt") return "tilt (degrees)";
   if (vary == "kh" || vary == "kv") return "seismic coefficient " + vary;
   if (vary == "strength") return "strength divided by";
+  if (vary == "flow") return "time of the flow (s)";
   return "multiplier of " + (vary == "gravity" ? vary : vary.substr(vary.find(':') + 1));
 }
 

@@ -195,6 +195,21 @@ class Examples(Program):
         for inflow in flows.values():
             self.assertLess(abs(sum(inflow)), 1e-9 * max(map(abs, inflow), default=0) + 1e-15)
 
+    def test_joints_fill_and_drain(self):
+        _, folder = self.ran("rain-slope")
+        self.assertTrue(all(row["holds"] == "1" for row in self.rows(folder / "curve.csv")))
+
+        def water(stage):  # N, of all joints at the end of a stage
+            return sum(0.5 * (float(r["water_pressure_a"]) + float(r["water_pressure_b"])) * float(r["length"])
+                       for r in self.rows(folder / f"joints_{stage}.csv") if r["water_pressure_a"])
+        dry, storm, after = water(1), water(2), water(3)
+        self.assertGreater(storm, 1.2 * dry)
+        self.assertLess(after, 0.5 * (storm + dry))
+        rain = [float(row["inflow"]) for row in self.rows(folder / "flow.csv") if row["water"] == "rain"]
+        # No more than falls on 90 m of ground.
+        self.assertGreater(max(rain), 0.3 * 90 * 3e-3 / 3600)
+        self.assertLess(max(rain), 90 * 3e-3 / 3600 * (1 + 1e-6))
+
     def test_disc_splits(self):
         # Grains of 4.5 in place of 2.7 mm.
         _, folder = self.ran("brazilian-disc", "--set", "voronoi.size=4.5 mm")
