@@ -283,10 +283,14 @@ struct BoltBond {
   double strength = 0.0;   ///< N/m
 };
 
-/// A bolt sheared by a joint: elastic up to its strength, perfectly plastic beyond it.
+/// A bolt sheared by a joint: elastic up to its strength, perfectly plastic beyond it. Both are
+/// given, or follow from the bar and from what it is bedded in.
 struct BoltDowel {
-  double stiffness = 0.0;  ///< N/m
-  double strength = 0.0;   ///< N
+  double stiffness = 0.0;                    ///< N/m
+  double strength = 0.0;                     ///< N
+  bool of_bar = false;                       ///< stiffness and strength are not given
+  std::optional<double> bearing_strength;    ///< Pa; empty: the ucs of the rock
+  std::optional<double> foundation_modulus;  ///< Pa; empty: Young's modulus of the rock
 };
 
 /// [[bolt]], per bolt and not per metre of thickness.

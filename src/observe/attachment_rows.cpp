@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "blocks/build_blocks.hpp"
 #include "observe/bolt_nodes.hpp"
@@ -69,7 +70,8 @@ std::string bolts_rows(const Simulation& sim) {
       csv.add(sim.motion.state.time).add(b.rows[r].name).add(b.distance[k]);
       csv.add(node.place.x).add(node.place.y);
       csv.add(node.axial).add(node.bond).add(node.dowel).add(node.utilisation);
-      csv.add(int{node.yielded}).add(int{node.ruptured}).end();
+      csv.add(int{node.yielded}).add(int{node.ruptured});
+      csv.add(node.dowel_utilisation).add(node.angle * (180.0 / std::numbers::pi)).end();
     }
   }
   return csv.text();

@@ -308,7 +308,7 @@ void expect_every_bolt_key(const Model& m) {
   EXPECT_EQ(bolt.rupture_strain, 0.08);
   EXPECT_EQ(bolt.spacing, 1.5);
   EXPECT_EQ(bolt.pretension, 30e3);
-  ASSERT_EQ(m.bolt_patterns.size(), 1U);
+  ASSERT_EQ(m.bolt_patterns.size(), 2U);
   const BoltPattern& pattern = m.bolt_patterns[0];
   EXPECT_EQ(pattern.opening, "cavern");
   EXPECT_EQ(pattern.from_angle, 10.0);
@@ -320,6 +320,11 @@ void expect_every_bolt_key(const Model& m) {
   EXPECT_EQ(pattern.bolt.bond.strength, 4e5);
   EXPECT_EQ(pattern.bolt.dowel.stiffness, 1e8);
   EXPECT_EQ(pattern.bolt.dowel.strength, 1.5e5);
+  EXPECT_FALSE(pattern.bolt.dowel.of_bar);
+  const BoltDowel& of_bar = m.bolt_patterns[1].bolt.dowel;
+  EXPECT_TRUE(of_bar.of_bar);
+  EXPECT_EQ(of_bar.bearing_strength, 60e6);
+  EXPECT_EQ(of_bar.foundation_modulus, 20e9);
 }
 
 /// Loads, water and monitors.

@@ -249,6 +249,70 @@ TEST(Bolt, DowelsAJoint) {
   EXPECT_LT(error, 1e-4);
 }
 
+const double plastic_moment = 500e6 * std::pow(diameter, 3) / 6.0;
+
+/// The same with a dowel that follows from the bar.
+TEST(Bolt, DowelsAJointByItsBar) {
+  const double modulus = 15e9, pressure = 50e6;
+  Simulation sim = scene(two_blocks(
+      grouted + "spacing = 1.5\nyield_stress = 500e6\n"
+                "dowel = { bearing_strength = 50e6, foundation_modulus = 15e9 }\n"
+                "[[boundary]]\nname = 'pull'\nalong = [[2, 0.0], [2, 4]]\ntype = 'velocity'\n"
+                "velocity = [0.02, 0]\nstiffness = 1e9\n",
+      "duration = 0.08\ndamping = { contact = 0.2, mass = 50.0 }\n"));
+  sim.scene.edit().model.gravity = {0.0, -9.81};
+  const double bending = young * std::numbers::pi * std::pow(diameter, 4) / 64.0;
+  const double beta = std::pow(modulus / (4.0 * bending), 0.25);
+  const double stiffness = bending * std::pow(beta, 3),
+               strength = std::sqrt(2.0 * plastic_moment * pressure * diameter);
+  double error = 0.0, at_half = 0.0;
+  const auto shear = [&] { return -on_upper(sim).x; };
+  run(sim, [&](Simulation& s) {
+    keep_largest(error, account_energy(s).error);
+    const double u = displacement(s, 1).x;
+    if (u < 0.5 * strength / stiffness && u > 0.1 * strength / stiffness) at_half = shear() / u;
+  });
+  expect_relative({95, "", "shear stiffness of the bolted joint, less friction", "N/m"}, at_half,
+                  stiffness / 1.5, 1e-2);
+  expect_relative({95, "", "shear strength that the bolt adds", "N"}, shear(), strength / 1.5,
+                  1e-2);
+  EXPECT_LT(error, 1e-4);
+}
+
+/// Largest shear resistance of a joint with friction of 30 degrees, less its own, as its bolt at
+/// `angle` from the normal breaks, over the tensile strength of the bolt.
+double shear_test(double angle, double ucs) {
+  const Vec2 along = rotated({0.0, 1.5}, -radians(angle));
+  Simulation sim = scene(two_blocks(
+      "[[bolt]]\nfrom = [" + number(-along.x) + ", " + number(-along.y) + "]\nto = [" +
+          number(along.x) + ", " + number(along.y) +
+          "]\ndiameter = 0.025\nyield_stress = 500e6\nrupture_strain = 0.05\n"
+          "bond = { stiffness = 3e9, strength = 1e6 }\ndowel = { bearing_strength = " +
+          number(1e6 * ucs) + ", foundation_modulus = " + number(3e8 * ucs) + " }\n",
+      "duration = 1.0\n"));
+  double largest = 0.0;
+  for (int n = 0; n < 4000; ++n) {
+    shift_upper(sim, {2e-5, 0.0});
+    const Vec2 f = -1.0 * on_upper(sim);
+    largest = std::max(largest, f.x + f.y * std::tan(radians(30.0)));
+  }
+  EXPECT_LT(norm(on_upper(sim)), 1.0) << "it has not broken";
+  return largest / (500e6 * area());
+}
+
+TEST(Bolt, ResistsAsInShearTests) {
+  for (const double ucs : {40.0, 70.0}) {
+    for (const double angle : {0.0, 15.0, 30.0, 45.0}) {
+      const double sine = std::sin(radians(angle));
+      const double tested = (1.55 + 0.011 * std::pow(ucs, 1.07) * sine * sine) *
+                            std::pow(ucs, -0.14) * (0.85 + 0.45 * std::tan(radians(30.0)));
+      expect_relative({96, brief(ucs) + " MPa, " + brief(angle) + " deg",
+                       "shear strength over tensile strength of the bolt", ""},
+                      shear_test(angle, ucs), tested, 0.1);
+    }
+  }
+}
+
 /// A block is suspended from an end-anchored bolt: in equilibrium the elongation of the bolt is
 /// that of the weight less the pretension.
 TEST(Bolt, HoldsABlockUp) {
