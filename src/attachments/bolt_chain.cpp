@@ -67,7 +67,7 @@ double offset(const BarFrame& f) {
   return cross(f.t, f.gap);
 }
 
-LinkForces answer(const Bolts& b, std::size_t k, const Link& link) {
+LinkForces answer(const Bolts& b, std::size_t k, const BarLink& link) {
   const LinkPair stiffness{b.bars.stiffness[k], b.dowels.stiffness[k]};
   if (b.bars.broken[k] != 0) return {};
   return link_forces({stiffness.axial * (link.longer - b.bars.plastic[k]),
@@ -79,7 +79,7 @@ LinkForces answer(const Bolts& b, std::size_t k, const Link& link) {
 SpringResponse answer_of_bar(const Bolts& b, const std::vector<double>& slip, std::size_t k) {
   const double e = elongation(b, slip, k);
   if (b.hinges[k] == 0.0) return answer(b.bars, k, e - b.bars.plastic[k]);
-  const Link at = link_at(b.hinges[k], e, offset(b.frame[k]));
+  const BarLink at = link_at(b.hinges[k], e, offset(b.frame[k]));
   const LinkForces f = answer(b, k, at);
   const double c = at.cosine, s = at.part * at.sine;
   const double turning =
@@ -95,7 +95,7 @@ double energy_of_bar(const Bolts& b, const std::vector<double>& slip, std::size_
 }
 
 /// As yield_to(), of a bar and its dowel that are a link.
-void yield_to(Bolts& b, std::size_t k, const Link& link, Spent& spent) {
+void yield_to(Bolts& b, std::size_t k, const BarLink& link, Spent& spent) {
   const LinkForces f = answer(b, k, link);
   const bool broken = b.bars.broken[k] != 0;
   const auto flow_to = [&](BoltSprings& s, double stretch, double force) {
@@ -333,7 +333,7 @@ NodeVectors carriers_at(const Bolts& b, const BlockSet& blocks, const State& sta
   return zone_at(blocks, state.position, b.host[k], b.zone[k]);
 }
 
-Link link_of(const Bolts& b, const BarFrame& f, std::size_t k) {
+BarLink link_of(const Bolts& b, const BarFrame& f, std::size_t k) {
   return link_at(b.hinges[k], f.stretch + b.slip[k + 1] * f.end - b.slip[k] * f.start, offset(f));
 }
 

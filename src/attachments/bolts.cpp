@@ -235,7 +235,7 @@ class Builder {
       return Foundation{bolt.dowel.foundation_modulus.value_or(rock.young),
                         bearing_strength(bolt, rock).value_or(0.0)};
     };
-    const Bar bar{bolt.diameter, bolt.young, bolt.yield_stress.value_or(0.0)};
+    const DowelBar bar{bolt.diameter, bolt.young, bolt.yield_stress.value_or(0.0)};
     for (std::size_t k = first; k + 1 < bolts.size(); ++k) {
       if (bolts.crossing[k] == 0 || bolts.host[k] == bolts.host[k + 1]) continue;
       const DowelAction dowel =

@@ -140,7 +140,7 @@ NodeVectors carriers_at(const Bolts& bolts, const BlockSet& blocks, const State&
 BarFrame bar_frame(const Bolts& bolts, const BlockSet& blocks, const State& state, std::size_t k);
 
 /// The link that bar k is with its dowel; Bolts::hinges[k] > 0.
-Link link_of(const Bolts& bolts, const BarFrame& frame, std::size_t k);
+BarLink link_of(const Bolts& bolts, const BarFrame& frame, std::size_t k);
 
 /// Whether node k lies in excavated rock, so that the bolt has nothing to hold there.
 inline bool is_cut_off(const Bolts& bolts, const State& state, std::size_t k) {

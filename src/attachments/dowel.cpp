@@ -43,7 +43,7 @@ double on_ellipse(const LinkPair& trial, const LinkPair& rate, const LinkPair& s
 
 }  // namespace
 
-DowelAction dowel_action(const Bar& bar, const Foundation& before, const Foundation& after,
+DowelAction dowel_action(const DowelBar& bar, const Foundation& before, const Foundation& after,
                          double gap) {
   const double d = bar.diameter, square = d * d;
   const double bending = bar.young * std::numbers::pi * square * square / 64.0;
@@ -59,8 +59,8 @@ DowelAction dowel_action(const Bar& bar, const Foundation& before, const Foundat
           2.0 * shear / p + gap};
 }
 
-Link link_at(double hinges, double elongation, double offset) {
-  Link link;
+BarLink link_at(double hinges, double elongation, double offset) {
+  BarLink link;
   const double along = hinges + elongation;
   link.length = std::sqrt(along * along + offset * offset);
   link.cosine = along / link.length;

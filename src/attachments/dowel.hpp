@@ -17,7 +17,7 @@
 namespace edda {
 
 /// A round bar.
-struct Bar {
+struct DowelBar {
   double diameter = 0.0;      ///< m
   double young = 0.0;         ///< Pa
   double yield_stress = 0.0;  ///< Pa
@@ -36,7 +36,7 @@ struct DowelAction {
   double hinges = 0.0;     ///< m, H
 };
 /// `gap`: distance of the walls along the bar, m.
-DowelAction dowel_action(const Bar& bar, const Foundation& before, const Foundation& after,
+DowelAction dowel_action(const DowelBar& bar, const Foundation& before, const Foundation& after,
                          double gap);
 
 /// N and V, or their stiffness and strength.
@@ -45,7 +45,7 @@ struct LinkPair {
 };
 
 /// A link at an elongation and an offset.
-struct Link {
+struct BarLink {
   double cosine = 1.0, sine = 0.0;  ///< of theta
   double longer = 0.0;              ///< R - H, m
   double shear = 0.0;               ///< H theta, m
@@ -57,7 +57,7 @@ struct Link {
     return {f.axial * cosine - f.shear * part * sine, f.axial * sine + f.shear * part * cosine};
   }
 };
-Link link_at(double hinges, double elongation, double offset);
+BarLink link_at(double hinges, double elongation, double offset);
 
 /// Forces of a link, and their derivatives by its elongation and its shear.
 struct LinkForces {

@@ -11,7 +11,7 @@ namespace {
 /// bar does that carries its force.
 double stiffness_across(const Bolts& b, const BarFrame& frame, const BoltData& row, std::size_t k) {
   if (b.hinges[k] == 0.0) return b.dowels.stiffness[k];
-  const Link link = link_of(b, frame, k);
+  const BarLink link = link_of(b, frame, k);
   const double pulled = std::min(b.bars.stiffness[k], std::sqrt(row.steel * row.bond));
   return b.dowels.stiffness[k] + 2.0 * link.sine * link.sine * pulled +
          (std::abs(b.bars.force[k]) + 2.0 * std::abs(b.dowels.force[k])) / link.length;

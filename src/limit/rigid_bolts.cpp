@@ -22,7 +22,7 @@ Vec2 direction_there(const Simulation& sim, Id k) {
   const Bolts& bolts = sim.attached.bolts;
   const BarFrame frame = bar_frame(bolts, sim.scene->blocks, sim.motion.state, k);
   if (bolts.hinges[k] == 0.0) return frame.t;
-  const Link link = link_of(bolts, frame, k);
+  const BarLink link = link_of(bolts, frame, k);
   return link.cosine * frame.t + link.sine * perp(frame.t);
 }
 

@@ -54,7 +54,7 @@ BoltNode bolt_node(const Simulation& sim, std::size_t r, std::size_t k) {
     node.dowel_utilisation = part(b.dowels.force[at], b.dowels.strength[at]);
     if (b.hinges[at] > 0.0) {
       node.dowel_utilisation = std::hypot(node.dowel_utilisation, part(axial, row.yield));
-      const Link link = link_of(b, bar_frame(b, sim.scene->blocks, sim.motion.state, at), at);
+      const BarLink link = link_of(b, bar_frame(b, sim.scene->blocks, sim.motion.state, at), at);
       node.angle = std::atan2(link.sine, link.cosine);
     }
   }

@@ -107,7 +107,8 @@ void expect_gradients(Bolt bolt) {
 TEST(BoltChain, ForcesAreGradientsOfTheStoredEnergy) {
   Bolt bolt = grouted({1, 0.1}, {2, 4});
   bolt.bond = {1e8, 1e12};
-  bolt.dowel = {1e7, 1e12};
+  bolt.dowel.stiffness = 1e7;
+  bolt.dowel.strength = 1e12;
   expect_gradients(bolt);
   expect_gradients(with_ends({1, 1}, {2, 4}));
 }
@@ -233,8 +234,7 @@ struct Sheared {
 };
 
 const double area = 0.25 * std::numbers::pi * diameter * diameter;
-const double collapse =
-    std::sqrt(2.0 * 500e6 * std::pow(diameter, 3) / 6.0 * 40e6 * diameter);
+const double collapse = std::sqrt(2.0 * 500e6 * std::pow(diameter, 3) / 6.0 * 40e6 * diameter);
 
 /// At a right angle to the joint: E I beta^3, then the collapse load, while offsets are small.
 TEST(BoltDowel, ResistsAsItsBarInItsFoundation) {
@@ -255,9 +255,9 @@ TEST(BoltDowel, TurnsIntoTheJoint) {
   for (int n = 0; n < 3000; ++n) s.shift(1e-5);
   const std::size_t k = s.link();
   const double n = s.bolts().bars.force[k] / (500e6 * area),
-               v = s.bolts().dowels.force[k] / collapse;
+               v = std::abs(s.bolts().dowels.force[k]) / collapse;
   EXPECT_NEAR(std::hypot(n, v), 1.0, 1e-3);
-  EXPECT_GT(n, 0.9);
+  EXPECT_GT(n, 0.8);
   const double hinges = s.bolts().hinges[k];
   const double theta = std::atan2(0.03, hinges);
   const double part = hinges / std::hypot(0.03, hinges);

@@ -11,14 +11,14 @@
 namespace edda::dowel_test {
 namespace {
 
-constexpr Bar bar{0.025, 200e9, 500e6};
+constexpr DowelBar bar{0.025, 200e9, 500e6};
 constexpr double bending = 200e9 * std::numbers::pi * 0.025 * 0.025 * 0.025 * 0.025 / 64.0;
 constexpr double moment = 500e6 * 0.025 * 0.025 * 0.025 / 6.0;
 
-/// Force over offset of a bar of `half` on either side of the gap, in beam elements of 2 mm (or of
+/// Force over offset of a bar of `half` on either side of the gap, in beam elements of 4 mm (or of
 /// a 20th of the gap). The left foundation stays, the right one moves by 1.
 double stiffness_in_elements(const Foundation& left, const Foundation& right, double gap) {
-  constexpr double half = 0.5, size = 2e-3;
+  constexpr double half = 0.32, size = 4e-3;
   std::vector<double> lengths, moduli, moved;
   const auto add = [&](double length, double piece, double modulus, double by) {
     const auto n = static_cast<std::size_t>(std::lround(length / piece));
@@ -49,8 +49,7 @@ double stiffness_in_elements(const Foundation& left, const Foundation& right, do
   for (std::size_t e = 0; e < lengths.size() && moved[e] == 0.0; ++e) {
     const auto at = static_cast<Eigen::Index>(2 * e);
     const double h = lengths[e];
-    force += moduli[e] * h *
-             (0.5 * (w[at] + w[at + 2]) + h / 12.0 * (w[at + 1] - w[at + 3]));
+    force += moduli[e] * h * (0.5 * (w[at] + w[at + 2]) + h / 12.0 * (w[at + 1] - w[at + 3]));
   }
   return force;
 }
@@ -155,7 +154,7 @@ TEST(Dowel, ForcesAndSlopesAreDerivatives) {
   }
   const LinkPair pair{2e5, 3e4};
   const auto work = [&](double e, double d) {
-    const Link link = link_at(0.08, e, d);
+    const BarLink link = link_at(0.08, e, d);
     return pair.axial * link.longer + pair.shear * link.shear;
   };
   for (const auto& [e, d] : {std::pair{0.0, 0.0}, {0.01, 0.03}, {-0.005, -0.1}}) {

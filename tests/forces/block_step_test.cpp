@@ -2,7 +2,9 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>
+#include <array>
 #include <cmath>
+#include <cstdlib>
 #include <limits>
 #include <numbers>
 
@@ -320,7 +322,8 @@ TEST(BoltMatrix, BoundsALinkThatHasTurned) {
       const NodalVector low = NodalVector::Random(), high = NodalVector::Random();
       const double h = 1e-8;
       const auto more = forces(h * low, h * high), less = forces(-h * low, -h * high);
-      const double energy = ((less[0] - more[0]).dot(low) + (less[1] - more[1]).dot(high)) / 2.0 / h;
+      const double energy =
+          ((less[0] - more[0]).dot(low) + (less[1] - more[1]).dot(high)) / 2.0 / h;
       const double most = low.dot(bound[0] * low) + high.dot(bound[1] * high);
       largest = std::max(largest, energy / most);
     }

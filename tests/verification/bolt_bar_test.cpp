@@ -283,13 +283,13 @@ TEST(Bolt, DowelsAJointByItsBar) {
 /// `angle` from the normal breaks, over the tensile strength of the bolt.
 double shear_test(double angle, double ucs) {
   const Vec2 along = rotated({0.0, 1.5}, -radians(angle));
-  Simulation sim = scene(two_blocks(
-      "[[bolt]]\nfrom = [" + number(-along.x) + ", " + number(-along.y) + "]\nto = [" +
-          number(along.x) + ", " + number(along.y) +
-          "]\ndiameter = 0.025\nyield_stress = 500e6\nrupture_strain = 0.05\n"
-          "bond = { stiffness = 3e9, strength = 1e6 }\ndowel = { bearing_strength = " +
-          number(1e6 * ucs) + ", foundation_modulus = " + number(3e8 * ucs) + " }\n",
-      "duration = 1.0\n"));
+  Simulation sim = scene(
+      two_blocks("[[bolt]]\nfrom = [" + number(-along.x) + ", " + number(-along.y) + "]\nto = [" +
+                     number(along.x) + ", " + number(along.y) +
+                     "]\ndiameter = 0.025\nyield_stress = 500e6\nrupture_strain = 0.05\n"
+                     "bond = { stiffness = 3e9, strength = 1e6 }\ndowel = { bearing_strength = " +
+                     number(1e6 * ucs) + ", foundation_modulus = " + number(3e8 * ucs) + " }\n",
+                 "duration = 1.0\n"));
   double largest = 0.0;
   for (int n = 0; n < 4000; ++n) {
     shift_upper(sim, {2e-5, 0.0});
