@@ -102,8 +102,10 @@ BoltData data_of(const Bolt& bolt, std::size_t number, double thickness) {
   d.pretension = d.share * bolt.pretension;
   d.bond = d.share * bolt.bond.stiffness;
   d.bond_strength = d.share * bolt.bond.strength;
-  d.dowel = d.share * bolt.dowel.stiffness;
-  d.dowel_strength = d.share * bolt.dowel.strength;
+  if (bolt.dowel) {
+    d.dowel = d.share * bolt.dowel->stiffness.value_or(0.0);
+    d.dowel_strength = d.share * bolt.dowel->strength.value_or(0.0);
+  }
   return d;
 }
 
@@ -144,11 +146,12 @@ class Builder {
                    "move it into the rock (edda cut draws the blocks)"};
     }
     if (data.grouted) {
-      if (bolt.dowel.of_bar) {
+      const bool of_bar = bolt.dowel && bolt.dowel->of_bar();
+      if (of_bar) {
         if (auto fault = find_foundations(bolt, data, stays)) return fault;
       }
       add_grouted(data, stays, head, t, length);
-      if (bolt.dowel.of_bar) set_links(bolt, data, bolts.begin.back());
+      if (of_bar) set_links(bolt, data, bolts.begin.back());
     } else {
       const double near = slack_ * length;
       const bool ends = stays.front().from <= near && stays.back().to >= length - near;
@@ -208,7 +211,7 @@ class Builder {
   }
 
   static std::optional<double> bearing_strength(const Bolt& bolt, const Material& rock) {
-    if (bolt.dowel.bearing_strength) return bolt.dowel.bearing_strength;
+    if (bolt.dowel->bearing_strength) return bolt.dowel->bearing_strength;
     if (rock.strength) return rock.strength->ucs;
     return rock.yield ? rock.yield->peak.ucs : std::nullopt;
   }
@@ -232,7 +235,7 @@ class Builder {
   void set_links(const Bolt& bolt, const BoltData& data, std::size_t first) {
     const auto foundation = [&](std::size_t k) {
       const Material& rock = rock_of(bolts.host[k]);
-      return Foundation{bolt.dowel.foundation_modulus.value_or(rock.young),
+      return Foundation{bolt.dowel->foundation_modulus.value_or(rock.young),
                         bearing_strength(bolt, rock).value_or(0.0)};
     };
     const DowelBar bar{bolt.diameter, bolt.young, bolt.yield_stress.value_or(0.0)};

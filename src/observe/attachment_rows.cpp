@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "blocks/build_blocks.hpp"
 #include "observe/bolt_nodes.hpp"
@@ -71,7 +70,7 @@ std::string bolts_rows(const Simulation& sim) {
       csv.add(node.place.x).add(node.place.y);
       csv.add(node.axial).add(node.bond).add(node.dowel).add(node.utilisation);
       csv.add(int{node.yielded}).add(int{node.ruptured});
-      csv.add(node.dowel_utilisation).add(node.angle * (180.0 / std::numbers::pi)).end();
+      csv.add(node.dowel_utilisation).add(node.angle).end();
     }
   }
   return csv.text();

@@ -136,7 +136,7 @@ constexpr std::array bolts{
     C{"dowel_utilisation", "1",
       "Dowel force over dowel strength; of a dowel whose strength follows from the bar that of "
       "shear and axial force together, sqrt((V/V_p)^2 + (N/N_p)^2)."},
-    C{"dowel_angle", "deg",
+    C{"dowel_angle", "rad",
       "Angle by which such a bar has turned in the joint at this node, counter-clockwise."},
 };
 

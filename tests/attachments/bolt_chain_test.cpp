@@ -107,8 +107,7 @@ void expect_gradients(Bolt bolt) {
 TEST(BoltChain, ForcesAreGradientsOfTheStoredEnergy) {
   Bolt bolt = grouted({1, 0.1}, {2, 4});
   bolt.bond = {1e8, 1e12};
-  bolt.dowel.stiffness = 1e7;
-  bolt.dowel.strength = 1e12;
+  bolt.dowel = BoltDowel{1e7, 1e12};
   expect_gradients(bolt);
   expect_gradients(with_ends({1, 1}, {2, 4}));
 }
@@ -209,10 +208,7 @@ struct Sheared {
     bolt.bond = {1e9, 4e5};
     bolt.yield_stress = 500e6;
     bolt.rupture_strain = more.rupture_strain;
-    bolt.dowel = {};
-    bolt.dowel.of_bar = true;
-    bolt.dowel.bearing_strength = 40e6;
-    bolt.dowel.foundation_modulus = 12e9;
+    bolt.dowel = BoltDowel{{}, {}, 40e6, 12e9};
     m.model.bolts = {bolt};
     m.attach();
     EXPECT_TRUE(m.faults.empty());
@@ -309,10 +305,7 @@ TEST(BoltDowel, ForcesAreGradientsOfTheStoredEnergy) {
   Bolt bolt = grouted({1, 0.1}, {2, 4});
   bolt.bond = {1e8, 1e12};
   bolt.yield_stress = 1e15;
-  bolt.dowel = {};
-  bolt.dowel.of_bar = true;
-  bolt.dowel.bearing_strength = 1e14;
-  bolt.dowel.foundation_modulus = 1e9;
+  bolt.dowel = BoltDowel{{}, {}, 1e14, 1e9};
   expect_gradients(bolt);
 }
 

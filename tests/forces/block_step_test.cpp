@@ -280,10 +280,7 @@ TEST(BoltMatrix, BoundsALinkThatHasTurned) {
     m.build();
     Bolt bolt = test::grouted({1.5, 0.5}, {2.5, 3.5});
     bolt.yield_stress = yield;
-    bolt.dowel = {};
-    bolt.dowel.of_bar = true;
-    bolt.dowel.bearing_strength = yield / 8.0;
-    bolt.dowel.foundation_modulus = 20e9;
+    bolt.dowel = BoltDowel{{}, {}, yield / 8.0, 20e9};
     m.model.bolts = {bolt};
     m.attach();
     ASSERT_TRUE(m.faults.empty());

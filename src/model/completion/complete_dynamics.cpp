@@ -186,16 +186,15 @@ void find_entrance(const Value* node, Shaking& shaking, Reading& reading) {
 }
 
 /// Either stiffness and strength, or what they follow from. `node`: of the bolt or the pattern.
-void complete_dowel(const Value* node, Bolt& bolt, const Where& where, Reading& reading) {
+void check_dowel(const Value* node, const Bolt& bolt, const Where& where, Reading& reading) {
   const Value* dowel = find(node, "dowel");
   if (!is_table(dowel)) return;
   const std::string key = where.key + ".dowel";
   const bool stiffness = given(dowel, "stiffness"), strength = given(dowel, "strength");
-  bolt.dowel.of_bar = !stiffness && !strength;
   if (stiffness != strength) {
     add_fault(reading, dowel->place, key + (stiffness ? ".strength" : ".stiffness"), "is missing",
               "give stiffness and strength, or neither: then they follow from the bar");
-  } else if (bolt.dowel.of_bar) {
+  } else if (!stiffness) {
     if (bolt.type == BoltType::grouted && !bolt.yield_stress) {
       add_fault(reading, node->place, where.key + ".yield_stress",
                 "is missing: the strength of the dowel follows from it",
@@ -223,7 +222,7 @@ void check_bolt(const Value* node, const Bolt& bolt, const Where& where, Reading
       add_fault(reading, bond->place, where.key + ".bond.stiffness", "is zero",
                 "give a stiffness above 0");
     }
-  } else if (bolt.dowel.stiffness > 0.0 || bolt.dowel.of_bar) {
+  } else if (bolt.dowel && (bolt.dowel->of_bar() || bolt.dowel->stiffness.value_or(0.0) > 0.0)) {
     add_fault(reading, find(node, "dowel")->place, where.key + ".dowel",
               "does not apply to type \"end\": it touches nothing between its ends",
               "leave it out, or give type = \"grouted\"");
@@ -284,10 +283,10 @@ void complete_shakings(const Value& root, Reading& reading) {
 void complete_bolts(const Value& root, Reading& reading) {
   Model& model = reading.model;
   for (std::size_t i = 0; i < model.bolts.size(); ++i) {
-    Bolt& bolt = model.bolts[i];
+    const Bolt& bolt = model.bolts[i];
     const Value* node = element(root, "bolt", i);
     if (!is_table(node)) continue;
-    complete_dowel(node, bolt, bolt.where, reading);
+    check_dowel(node, bolt, bolt.where, reading);
     check_bolt(node, bolt, bolt.where, reading);
     if (given(node, "from") && given(node, "to") && bolt.from == bolt.to) {
       add_fault(reading, find(node, "to")->place, bolt.where.key + ".to", "is where from is",
@@ -295,10 +294,10 @@ void complete_bolts(const Value& root, Reading& reading) {
     }
   }
   for (std::size_t i = 0; i < model.bolt_patterns.size(); ++i) {
-    BoltPattern& pattern = model.bolt_patterns[i];
+    const BoltPattern& pattern = model.bolt_patterns[i];
     const Value* node = element(root, "bolt_pattern", i);
     if (!is_table(node)) continue;
-    complete_dowel(node, pattern.bolt, pattern.where, reading);
+    check_dowel(node, pattern.bolt, pattern.where, reading);
     check_bolt(node, pattern.bolt, pattern.where, reading);
     check_opening(node, pattern.where.key, pattern.opening, reading);
   }

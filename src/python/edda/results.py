@@ -142,7 +142,7 @@ class Results:
 
         time (s), bolt (name), distance (m along it), x, y (m); axial_force (N, tension positive), bond_force (N/m),
         dowel_force (N), each of one bolt; utilisation (largest part of a strength), yielded, ruptured (0 or 1);
-        dowel_utilisation, dowel_angle (degrees by which the bar has turned in a joint).
+        dowel_utilisation, dowel_angle (rad by which the bar has turned in a joint).
         """
         return read_table(self._file("bolts.csv"))
 
