@@ -257,7 +257,7 @@ TEST(BadModel, Bolts) {
                "is missing"},
            Bad{at + bond + "dowel = { stiffness = 1e8, strength = 1e5, bearing_strength = 5e7 }\n",
                47, "bolt.0.dowel.bearing_strength", "follow from the bar"},
-           Bad{at + bond + "dowel = { bearing_strength = \"5 kN\" }\n", 47,
+           Bad{at + bond + "yield_stress = 4e8\ndowel = { bearing_strength = \"5 kN\" }\n", 48,
                "bolt.0.dowel.bearing_strength", "is not a stress"},
            Bad{end + "yield_stress = 1e6\npretension = 1e6\n", 48, "bolt.0.pretension",
                "at which the bolt yields"},

@@ -279,9 +279,13 @@ TEST(Bolt, DowelsAJointByItsBar) {
   EXPECT_LT(error, 1e-4);
 }
 
-/// Largest shear resistance of a joint with friction of 30 degrees, less its own, as its bolt at
-/// `angle` from the normal breaks, over the tensile strength of the bolt.
-double shear_test(double angle, double ucs) {
+/// A joint with friction of 30 degrees, sheared until its bolt at `angle` from the normal breaks.
+struct ShearTest {
+  double resistance = 0.0;    ///< less the joint's own, over the tensile strength of the bolt
+  double displacement = 0.0;  ///< when it breaks, in diameters of the bolt
+};
+
+ShearTest shear_test(double angle, double ucs) {
   const Vec2 along = rotated({0.0, 1.5}, -radians(angle));
   Simulation sim = scene(
       two_blocks("[[bolt]]\nfrom = [" + number(-along.x) + ", " + number(-along.y) + "]\nto = [" +
@@ -290,25 +294,36 @@ double shear_test(double angle, double ucs) {
                      "bond = { stiffness = 3e9, strength = 1e6 }\ndowel = { bearing_strength = " +
                      number(1e6 * ucs) + ", foundation_modulus = " + number(3e8 * ucs) + " }\n",
                  "duration = 1.0\n"));
-  double largest = 0.0;
-  for (int n = 0; n < 4000; ++n) {
+  ShearTest test;
+  for (int n = 1; n < 4000; ++n) {
     shift_upper(sim, {2e-5, 0.0});
     const Vec2 f = -1.0 * on_upper(sim);
-    largest = std::max(largest, f.x + f.y * std::tan(radians(30.0)));
+    if (norm(f) < 1.0) {
+      test.displacement = n * 2e-5 / diameter;
+      break;
+    }
+    test.resistance =
+        std::max(test.resistance, (f.x + f.y * std::tan(radians(30.0))) / (500e6 * area()));
   }
-  EXPECT_LT(norm(on_upper(sim)), 1.0) << "it has not broken";
-  return largest / (500e6 * area());
+  return test;
 }
 
+/// The formulas of Spang and Egger (1990), where the one for the displacement is positive.
 TEST(Bolt, ResistsAsInShearTests) {
-  for (const double ucs : {40.0, 70.0}) {
-    for (const double angle : {0.0, 15.0, 30.0, 45.0}) {
-      const double sine = std::sin(radians(angle));
-      const double tested = (1.55 + 0.011 * std::pow(ucs, 1.07) * sine * sine) *
-                            std::pow(ucs, -0.14) * (0.85 + 0.45 * std::tan(radians(30.0)));
-      expect_relative({96, brief(ucs) + " MPa, " + brief(angle) + " deg",
-                       "shear strength over tensile strength of the bolt", ""},
-                      shear_test(angle, ucs), tested, 0.1);
+  for (const double ucs : {40.0, 60.0, 80.0}) {
+    for (const double angle : {0.0, 15.0, 30.0}) {
+      const double sine = std::sin(radians(angle)), cosine = std::cos(radians(angle));
+      const double resistance = (1.55 + 0.011 * std::pow(ucs, 1.07) * sine * sine) *
+                                std::pow(ucs, -0.14) * (0.85 + 0.45 * std::tan(radians(30.0)));
+      const double displacement =
+          (15.2 - 55.2 * std::pow(ucs, -0.14) + 56.2 * std::pow(ucs, -0.28)) *
+          (1.0 - sine / cosine * std::pow(70.0 / ucs, 0.125) / std::sqrt(cosine));
+      const ShearTest test = shear_test(angle, ucs);
+      const std::string which = brief(ucs) + " MPa, " + brief(angle) + " deg";
+      expect_relative({96, which, "shear resistance over tensile strength of the bolt", ""},
+                      test.resistance, resistance, 0.1);
+      expect_relative({96, which, "displacement at rupture over diameter of the bolt", ""},
+                      test.displacement, displacement, 0.25);
     }
   }
 }
