@@ -100,7 +100,7 @@ class Dynamics(Program):
                                          " ruptured dowel_utilisation dowel_angle".split())
         self.assertEqual(sorted({r["bolt"] for r in bolts}), ["2", "B", "D"])
         turned = [r for r in bolts if r["bolt"] == "D" and float(r["dowel_angle"]) != 0.0]
-        self.assertAlmostEqual(max(float(r["dowel_utilisation"]) for r in turned), 1.0, delta=1e-6)
+        self.assertAlmostEqual(max(float(r["dowel_utilisation"]) for r in turned), 1.0, delta=1e-4)
         self.assertEqual(sorted({float(r["time"]) for r in bolts}), [0.0, 0.1, 0.2, 0.3, 0.4])
         self.assertEqual(float(bolts[-1]["axial_force"]), float(bolts[-2]["axial_force"]))
         for row in self.rows("r/bolt_summary.csv"):
