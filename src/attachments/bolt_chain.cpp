@@ -42,20 +42,28 @@ struct Spent {
   int increments = 0;  ///< of Newton's method
 };
 
-/// Sets the force at an elongation. Plastic flow dissipates (F_{n-1} + F_n)/2 times its amount. A
-/// spring that has just broken releases all of its energy.
-void yield_to(BoltSprings& s, std::size_t k, double elongation, Spent& spent) {
+/// Sets the force at an elastic elongation `stretch` that may have to flow. Plastic flow dissipates
+/// (F_{n-1} + F_n)/2 times its amount. A spring that has just broken releases all of its energy.
+void set_force(BoltSprings& s, std::size_t k, double stretch, double force, bool flows,
+               Spent& spent) {
   s.force_1[k] = s.force[k];
-  if (s.stiffness[k] == 0.0) return;
-  const double stretch = elongation - s.plastic[k];
-  s.force[k] = answer(s, k, stretch).force;
+  s.force[k] = force;
   const bool broken = s.broken[k] != 0;
-  if (!broken && !(std::abs(s.force[k]) > s.strength[k])) return;
+  if (!broken && !flows) return;
   const double flow = stretch - s.force[k] / s.stiffness[k];
   s.plastic[k] += flow;
   (broken ? spent.fractured : spent.slipped) += 0.5 * s.force_1[k] * flow;
   (broken ? spent.pending_fracture : spent.pending_friction) += 0.5 * s.force[k] * flow;
   if (!broken) s.yielded[k] = 1;
+}
+
+void yield_to(BoltSprings& s, std::size_t k, double elongation, Spent& spent) {
+  if (s.stiffness[k] == 0.0) {
+    s.force_1[k] = s.force[k];
+    return;
+  }
+  const double stretch = elongation - s.plastic[k], force = answer(s, k, stretch).force;
+  set_force(s, k, stretch, force, std::abs(force) > s.strength[k], spent);
 }
 
 double elongation(const Bolts& b, const std::vector<double>& slip, std::size_t k) {
@@ -97,19 +105,8 @@ double energy_of_bar(const Bolts& b, const std::vector<double>& slip, std::size_
 /// As yield_to(), of a bar and its dowel that are a link.
 void yield_to(Bolts& b, std::size_t k, const BarLink& link, Spent& spent) {
   const LinkForces f = answer(b, k, link);
-  const bool broken = b.bars.broken[k] != 0;
-  const auto flow_to = [&](BoltSprings& s, double stretch, double force) {
-    s.force_1[k] = s.force[k];
-    s.force[k] = force;
-    if (!broken && !f.flows) return;
-    const double flow = stretch - force / s.stiffness[k] - s.plastic[k];
-    s.plastic[k] += flow;
-    (broken ? spent.fractured : spent.slipped) += 0.5 * s.force_1[k] * flow;
-    (broken ? spent.pending_fracture : spent.pending_friction) += 0.5 * force * flow;
-    if (!broken) s.yielded[k] = 1;
-  };
-  flow_to(b.bars, link.longer, f.force.axial);
-  flow_to(b.dowels, link.shear, f.force.shear);
+  set_force(b.bars, k, link.longer - b.bars.plastic[k], f.force.axial, f.flows, spent);
+  set_force(b.dowels, k, link.shear - b.dowels.plastic[k], f.force.shear, f.flows, spent);
 }
 
 /// The direction m of a bolt at a node, and the point h in its host.

@@ -9,7 +9,7 @@ namespace {
 /// Stiffness across the bolt, N/m, of a dowel. A link that has turned pulls there, too: with no
 /// more than the stiffness sqrt(EA K) at which a long bolt is pulled out of its bond K, and as a
 /// bar does that carries its force.
-double stiffness_across(const Bolts& b, const BarFrame& frame, const BoltData& row, std::size_t k) {
+double dowel_stiffness(const Bolts& b, const BarFrame& frame, const BoltData& row, std::size_t k) {
   if (b.hinges[k] == 0.0) return b.dowels.stiffness[k];
   const BarLink link = link_of(b, frame, k);
   const double pulled = std::min(b.bars.stiffness[k], std::sqrt(row.steel * row.bond));
@@ -22,7 +22,7 @@ BoltSpringAt end_springs(const Bolts& bolts, const BlockSet& blocks, const State
                          std::size_t node, const BoltData& row) {
   if (row.grouted) {
     const BarFrame frame = bar_frame(bolts, blocks, s, k);
-    return {node, frame.t, 0.0, 2.0 * stiffness_across(bolts, frame, row, k)};
+    return {node, frame.t, 0.0, 2.0 * dowel_stiffness(bolts, frame, row, k)};
   }
   const double stiffness = bolts.bars.stiffness[k];
   const double pull = std::min(bolts.bars.strength[k],
