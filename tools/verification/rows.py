@@ -420,10 +420,10 @@ ROWS = (
     Row(94, "Flow to a tunnel",
         "Two sets of joints 1 m apart are drained by a tunnel of 4 m radius; the head is given at 16 m.",
         "Radial flow in a continuum of the same conductivity (cubic law)."),
-    Row(95, "A joint sheared across a bar",
+    Row(99, "A joint sheared across a bar",
         "The joint of row 34, with a bolt of 25 mm and 500 MPa whose dowel follows from it, in rock that bears 15 GPa and 50 MPa.",
         "Two beams on their foundations, E I beta^3; two plastic hinges, sqrt(2 M_p p). Both over the spacing."),
-    Row(96, "Shear tests of bolted joints",
+    Row(100, "Shear tests of bolted joints",
         "A joint with friction of 30 degrees is sheared until its bolt breaks, of 25 mm, 500 MPa and a rupture strain of 5 %, at 0 to 30"
         " degrees from its normal, in rock of 40 to 80 MPa. What the bolt adds, with the friction that it gives, over its tensile"
         " strength.",
