@@ -42,15 +42,14 @@ struct Spent {
   int increments = 0;  ///< of Newton's method
 };
 
-/// Sets the force at an elongation. Plastic flow dissipates (F_{n-1} + F_n)/2 times its amount. A
-/// spring that has just broken releases all of its energy.
-void yield_to(BoltSprings& s, std::size_t k, double elongation, Spent& spent) {
+/// Sets the force at an elastic elongation `stretch` that may have to flow. Plastic flow dissipates
+/// (F_{n-1} + F_n)/2 times its amount. A spring that has just broken releases all of its energy.
+void set_force(BoltSprings& s, std::size_t k, double stretch, double force, bool flows,
+               Spent& spent) {
   s.force_1[k] = s.force[k];
-  if (s.stiffness[k] == 0.0) return;
-  const double stretch = elongation - s.plastic[k];
-  s.force[k] = answer(s, k, stretch).force;
+  s.force[k] = force;
   const bool broken = s.broken[k] != 0;
-  if (!broken && !(std::abs(s.force[k]) > s.strength[k])) return;
+  if (!broken && !flows) return;
   const double flow = stretch - s.force[k] / s.stiffness[k];
   s.plastic[k] += flow;
   (broken ? spent.fractured : spent.slipped) += 0.5 * s.force_1[k] * flow;
@@ -58,9 +57,56 @@ void yield_to(BoltSprings& s, std::size_t k, double elongation, Spent& spent) {
   if (!broken) s.yielded[k] = 1;
 }
 
+void yield_to(BoltSprings& s, std::size_t k, double elongation, Spent& spent) {
+  if (s.stiffness[k] == 0.0) {
+    s.force_1[k] = s.force[k];
+    return;
+  }
+  const double stretch = elongation - s.plastic[k], force = answer(s, k, stretch).force;
+  set_force(s, k, stretch, force, std::abs(force) > s.strength[k], spent);
+}
+
 double elongation(const Bolts& b, const std::vector<double>& slip, std::size_t k) {
   const BarFrame& f = b.frame[k];
   return f.stretch + slip[k + 1] * f.end - slip[k] * f.start;
+}
+
+double offset(const BarFrame& f) {
+  return cross(f.t, f.gap);
+}
+
+LinkForces answer(const Bolts& b, std::size_t k, const BarLink& link) {
+  const LinkPair stiffness{b.bars.stiffness[k], b.dowels.stiffness[k]};
+  if (b.bars.broken[k] != 0) return {};
+  return link_forces({stiffness.axial * (link.longer - b.bars.plastic[k]),
+                      stiffness.shear * (link.shear - b.dowels.plastic[k])},
+                     stiffness, {b.bars.strength[k], b.dowels.strength[k]}, beyond);
+}
+
+/// Force of bar k along the bolt at these slips.
+SpringResponse answer_of_bar(const Bolts& b, const std::vector<double>& slip, std::size_t k) {
+  const double e = elongation(b, slip, k);
+  if (b.hinges[k] == 0.0) return answer(b.bars, k, e - b.bars.plastic[k]);
+  const BarLink at = link_at(b.hinges[k], e, offset(b.frame[k]));
+  const LinkForces f = answer(b, k, at);
+  const double c = at.cosine, s = at.part * at.sine;
+  const double turning =
+      at.sine * (f.force.axial * at.sine + 2.0 * f.force.shear * at.part * c) / at.length;
+  return {at.pull(f.force).x,
+          c * c * f.axial_slope - 2.0 * c * s * f.mixed_slope + s * s * f.shear_slope + turning};
+}
+
+double energy_of_bar(const Bolts& b, const std::vector<double>& slip, std::size_t k) {
+  const double e = elongation(b, slip, k);
+  if (b.hinges[k] == 0.0) return energy(b.bars, k, e - b.bars.plastic[k]);
+  return answer(b, k, link_at(b.hinges[k], e, offset(b.frame[k]))).energy;
+}
+
+/// As yield_to(), of a bar and its dowel that are a link.
+void yield_to(Bolts& b, std::size_t k, const BarLink& link, Spent& spent) {
+  const LinkForces f = answer(b, k, link);
+  set_force(b.bars, k, link.longer - b.bars.plastic[k], f.force.axial, f.flows, spent);
+  set_force(b.dowels, k, link.shear - b.dowels.plastic[k], f.force.shear, f.flows, spent);
 }
 
 /// The direction m of a bolt at a node, and the point h in its host.
@@ -137,7 +183,7 @@ class Chain {
     double sum = 0.0;
     for (std::size_t k = first_; k < last_; ++k) {
       sum += energy(b_.bonds, k, slip[k] - b_.bonds.plastic[k]);
-      if (k + 1 < last_) sum += energy(b_.bars, k, elongation(b_, slip, k) - b_.bars.plastic[k]);
+      if (k + 1 < last_) sum += energy_of_bar(b_, slip, k);
     }
     return sum;
   }
@@ -155,7 +201,7 @@ class Chain {
       largest = std::max(largest, std::abs(bond.force));
       if (k + 1 < last_) {
         const BarFrame& f = b_.frame[k];
-        const SpringResponse bar = answer(b_.bars, k, elongation(b_, slip, k) - b_.bars.plastic[k]);
+        const SpringResponse bar = answer_of_bar(b_, slip, k);
         b_.diagonal[k] += bar.slope * f.start * f.start;
         b_.diagonal[k + 1] += bar.slope * f.end * f.end;
         b_.upper[k] = -bar.slope * f.start * f.end;
@@ -194,8 +240,13 @@ class Chain {
 /// delta = t x h: its normal on the points, and -n (t . h)/|m| on the directions.
 void push_hosts(Bolts& b, std::size_t k) {
   const BarFrame& f = b.frame[k];
-  const double axial = b.bars.force[k], across = b.dowels.force[k];
+  double axial = b.bars.force[k], across = b.dowels.force[k];
   if (axial == 0.0 && across == 0.0) return;
+  if (b.hinges[k] > 0.0) {
+    const Vec2 pull = link_of(b, f, k).pull({axial, across});
+    axial = pull.x;
+    across = pull.y;
+  }
   const Vec2 n = perp(f.t);
   const Vec2 whole = f.gap + b.slip[k + 1] * f.to - b.slip[k] * f.from;
   const Vec2 turning =
@@ -239,8 +290,12 @@ Spent update_grouted(Bolts& b, const BlockSet& blocks, const State& state, std::
   for (std::size_t k = first; k < last; ++k) {
     yield_to(b.bonds, k, b.slip[k], spent);
     if (k + 1 == last) break;
+    if (b.hinges[k] > 0.0) {
+      yield_to(b, k, link_of(b, b.frame[k], k), spent);
+      continue;
+    }
     yield_to(b.bars, k, elongation(b, b.slip, k), spent);
-    yield_to(b.dowels, k, cross(b.frame[k].t, b.frame[k].gap), spent);
+    yield_to(b.dowels, k, offset(b.frame[k]), spent);
   }
   for (std::size_t k = first; k + 1 < last; ++k) {
     push_hosts(b, k);
@@ -273,6 +328,10 @@ Spent update_ends(Bolts& b, const BlockSet& blocks, const State& state, std::siz
 NodeVectors carriers_at(const Bolts& b, const BlockSet& blocks, const State& state, std::size_t k) {
   if (b.zone[k] == no_id) return vectors_of(state.position, b.host[k]);
   return zone_at(blocks, state.position, b.host[k], b.zone[k]);
+}
+
+BarLink link_of(const Bolts& b, const BarFrame& f, std::size_t k) {
+  return link_at(b.hinges[k], f.stretch + b.slip[k + 1] * f.end - b.slip[k] * f.start, offset(f));
 }
 
 BarFrame bar_frame(const Bolts& b, const BlockSet& blocks, const State& state, std::size_t k) {

@@ -102,8 +102,10 @@ BoltData data_of(const Bolt& bolt, std::size_t number, double thickness) {
   d.pretension = d.share * bolt.pretension;
   d.bond = d.share * bolt.bond.stiffness;
   d.bond_strength = d.share * bolt.bond.strength;
-  d.dowel = d.share * bolt.dowel.stiffness;
-  d.dowel_strength = d.share * bolt.dowel.strength;
+  if (bolt.dowel) {
+    d.dowel = d.share * bolt.dowel->stiffness.value_or(0.0);
+    d.dowel_strength = d.share * bolt.dowel->strength.value_or(0.0);
+  }
   return d;
 }
 
@@ -127,8 +129,8 @@ Where at_key(const Bolt& bolt, const char* key) {
 /// Builds one bolt after the other.
 class Builder {
  public:
-  Builder(const Outlines& outlines, const State& state, double slack)
-      : o_(outlines), state_(state), slack_(slack) {
+  Builder(const Model& model, const Outlines& outlines, const State& state, double slack)
+      : model_(model), o_(outlines), state_(state), slack_(slack) {
     bolts.begin.push_back(0);
   }
 
@@ -144,7 +146,12 @@ class Builder {
                    "move it into the rock (edda cut draws the blocks)"};
     }
     if (data.grouted) {
+      const bool of_bar = bolt.dowel && bolt.dowel->of_bar();
+      if (of_bar) {
+        if (auto fault = find_foundations(bolt, data, stays)) return fault;
+      }
       add_grouted(data, stays, head, t, length);
+      if (of_bar) set_links(bolt, data, bolts.begin.back());
     } else {
       const double near = slack_ * length;
       const bool ends = stays.front().from <= near && stays.back().to >= length - near;
@@ -199,6 +206,49 @@ class Builder {
     }
   }
 
+  const Material& rock_of(Id i) const {
+    return model_.materials[static_cast<std::size_t>(o_.b.material[i])];
+  }
+
+  static std::optional<double> bearing_strength(const Bolt& bolt, const Material& rock) {
+    if (bolt.dowel->bearing_strength) return bolt.dowel->bearing_strength;
+    if (rock.strength) return rock.strength->ucs;
+    return rock.yield ? rock.yield->peak.ucs : std::nullopt;
+  }
+
+  /// It is a fault if rock that a bolt goes through has no strength in which it could be bedded.
+  std::optional<Fault> find_foundations(const Bolt& bolt, const BoltData& data,
+                                        const std::vector<BoltSegment>& stays) const {
+    for (const BoltSegment& s : stays) {
+      const Material& rock = rock_of(s.block);
+      if (bearing_strength(bolt, rock)) continue;
+      return Fault{at_key(bolt, ".dowel.bearing_strength"),
+                   "is missing: bolt " + data.name + " goes through \"" + rock.name +
+                       "\", of which no ucs is known",
+                   "give the dowel a bearing_strength, or that material strength = { ucs = ..., "
+                   "tension = ... }"};
+    }
+    return {};
+  }
+
+  /// Of a bolt whose nodes begin at `first`: makes every bar from block to block a link.
+  void set_links(const Bolt& bolt, const BoltData& data, std::size_t first) {
+    const auto foundation = [&](std::size_t k) {
+      const Material& rock = rock_of(bolts.host[k]);
+      return Foundation{bolt.dowel->foundation_modulus.value_or(rock.young),
+                        bearing_strength(bolt, rock).value_or(0.0)};
+    };
+    const DowelBar bar{bolt.diameter, bolt.young, bolt.yield_stress.value_or(0.0)};
+    for (std::size_t k = first; k + 1 < bolts.size(); ++k) {
+      if (bolts.crossing[k] == 0 || bolts.host[k] == bolts.host[k + 1]) continue;
+      const DowelAction dowel =
+          dowel_action(bar, foundation(k), foundation(k + 1), bolts.length[k]);
+      bolts.hinges[k] = dowel.hinges;
+      bolts.dowels.stiffness[k] = data.share * dowel.stiffness;
+      bolts.dowels.strength[k] = data.share * dowel.strength;
+    }
+  }
+
   std::size_t add_node(Id i, Vec2 p, Vec2 t, double distance, double bonded, const BoltData& data) {
     // The material point now at p, and the material direction that is now t.
     const auto [zone, gradient, at] = carriers(i, p);
@@ -218,6 +268,7 @@ class Builder {
     bolts.bonded.push_back(bonded);
     bolts.length.push_back(0.0);
     bolts.crossing.push_back(0);
+    bolts.hinges.push_back(0.0);
     bolts.slip.push_back(0.0);
     add_spring(bolts.bonds, data.grouted ? bonded * data.bond : 0.0, bonded * data.bond_strength);
     add_spring(bolts.bars, 0.0, data.yield);
@@ -254,6 +305,7 @@ class Builder {
   }
 
   static constexpr std::size_t no_node = static_cast<std::size_t>(-1);
+  const Model& model_;
   const Outlines& o_;
   const State& state_;
   double slack_;
@@ -329,7 +381,7 @@ Result<Bolts> attach_bolts(const Model& model, const BlockSet& b, const State& s
   const std::vector<Bolt> all = all_bolts(model);
   if (which.empty()) return Bolts{};
   const Outlines outlines{b, x, y};
-  Builder builder(outlines, state, slack);
+  Builder builder(model, outlines, state, slack);
   Faults faults;
   for (const Index row : which) {
     const auto q = static_cast<std::size_t>(row);
@@ -390,6 +442,7 @@ void add_bolts(Bolts& bolts, const Bolts& more, const Model& model, std::size_t 
   append(bolts.bonded, more.bonded);
   append(bolts.length, more.length);
   append(bolts.crossing, more.crossing);
+  append(bolts.hinges, more.hinges);
   append(bolts.slip, more.slip);
   append(bolts.bonds, more.bonds);
   append(bolts.bars, more.bars);

@@ -17,8 +17,9 @@
 //  (t_{k-1} . m_k) N_{k-1} - (t_k . m_k) N_k + K_k (s_k - ...) = 0,
 //
 // a tridiagonal system. Where two hosts meet, two nodes lie at one point, and a dowel acts across
-// the bolt on delta = t x (h_{k+1} - h_k), with h the points X themselves. An end-anchored bolt has
-// two nodes that cannot slip and one bar along their distance, which pulls but does not push.
+// the bolt on delta = t x (h_{k+1} - h_k), with h the points X themselves. Where the dowel follows
+// from the bar, that and bar k are one (attachments/dowel.hpp). An end-anchored bolt has two nodes
+// that cannot slip and one bar along their distance, which pulls but does not push.
 //
 // All energies depend only on distances and on the hosts' own directions, so the forces, their
 // gradients, conserve momentum and angular momentum.
@@ -28,6 +29,7 @@
 #include <string>
 #include <vector>
 
+#include "attachments/dowel.hpp"
 #include "base/fault.hpp"
 #include "blocks/kinematics.hpp"
 #include "model/model.hpp"
@@ -81,6 +83,7 @@ struct Bolts {
   std::vector<double> bonded;          ///< [nn] tributary length of the node's bond, m
   std::vector<double> length;          ///< [nn] L of the bar after the node, m
   std::vector<std::uint8_t> crossing;  ///< [nn] 1: that bar connects two hosts
+  std::vector<double> hinges;          ///< [nn] H of that bar and its dowel as a link, m; 0: none
 
   std::vector<double> slip;         ///< [nn] s, m
   BoltSprings bonds, bars, dowels;  ///< [nn] each
@@ -135,6 +138,9 @@ NodeVectors carriers_at(const Bolts& bolts, const BlockSet& blocks, const State&
 
 /// Bar k in its present position.
 BarFrame bar_frame(const Bolts& bolts, const BlockSet& blocks, const State& state, std::size_t k);
+
+/// The link that bar k is with its dowel; Bolts::hinges[k] > 0.
+BarLink link_of(const Bolts& bolts, const BarFrame& frame, std::size_t k);
 
 /// Whether node k lies in excavated rock, so that the bolt has nothing to hold there.
 inline bool is_cut_off(const Bolts& bolts, const State& state, std::size_t k) {

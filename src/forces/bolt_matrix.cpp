@@ -6,11 +6,24 @@
 namespace edda {
 namespace {
 
+/// Stiffness across the bolt, N/m, of a dowel. A link that has turned pulls there, too: with no
+/// more than the stiffness sqrt(EA K) at which a long bolt is pulled out of its bond K, and as a
+/// bar does that carries its force.
+double dowel_stiffness(const Bolts& b, const BarFrame& frame, const BoltData& row, std::size_t k) {
+  if (b.hinges[k] == 0.0) return b.dowels.stiffness[k];
+  const BarLink link = link_of(b, frame, k);
+  const double pulled = std::min(b.bars.stiffness[k], std::sqrt(row.steel * row.bond));
+  return b.dowels.stiffness[k] + 2.0 * link.sine * link.sine * pulled +
+         (std::abs(b.bars.force[k]) + 2.0 * std::abs(b.dowels.force[k])) / link.length;
+}
+
 /// Bar k and its dowel at their end `node`.
 BoltSpringAt end_springs(const Bolts& bolts, const BlockSet& blocks, const State& s, std::size_t k,
-                         std::size_t node, bool grouted) {
-  if (grouted)
-    return {node, bar_frame(bolts, blocks, s, k).t, 0.0, 2.0 * bolts.dowels.stiffness[k]};
+                         std::size_t node, const BoltData& row) {
+  if (row.grouted) {
+    const BarFrame frame = bar_frame(bolts, blocks, s, k);
+    return {node, frame.t, 0.0, 2.0 * dowel_stiffness(bolts, frame, row, k)};
+  }
   const double stiffness = bolts.bars.stiffness[k];
   const double pull = std::min(bolts.bars.strength[k],
                                std::max(bolts.bars.force[k], 0.01 * stiffness * bolts.length[k]));
@@ -28,11 +41,10 @@ std::vector<BoltSpringAt> bolt_springs(const Bolts& b, const BlockSet& blocks, c
     const std::size_t k = b.block_nodes[q];
     const auto row = static_cast<std::size_t>(
         std::upper_bound(b.begin.begin(), b.begin.end(), static_cast<Id>(k)) - b.begin.begin() - 1);
-    const bool grouted = b.rows[row].grouted;
     const Vec2 axis = weighted(weights_of(b.along, k), carriers_at(b, blocks, s, k));
     springs.push_back({k, axis, b.bonds.stiffness[k]});
-    if (k + 1 < b.begin[row + 1]) springs.push_back(end_springs(b, blocks, s, k, k, grouted));
-    if (k > b.begin[row]) springs.push_back(end_springs(b, blocks, s, k - 1, k, grouted));
+    if (k + 1 < b.begin[row + 1]) springs.push_back(end_springs(b, blocks, s, k, k, b.rows[row]));
+    if (k > b.begin[row]) springs.push_back(end_springs(b, blocks, s, k - 1, k, b.rows[row]));
   }
   return springs;
 }

@@ -3,7 +3,7 @@
 // The slips of a bolt's nodes minimise its energy, which is then at most what the bonds alone store
 // with the bolt fixed in space: sum of K_k u_k u_k^T, u along the bolt. Dowels and end-anchored
 // bars are springs between two blocks, as contacts are: 2 k u u^T; across itself a bar of tension N
-// has the stiffness 2 N/L, N at most its yield force.
+// has the stiffness 2 N/L, N at most its yield force, and so has a link (attachments/dowel.hpp).
 #pragma once
 
 #include "attachments/bolts.hpp"

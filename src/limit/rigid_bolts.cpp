@@ -17,6 +17,15 @@ double strength_now(const Simulation& sim, const BoltSprings& springs, Id k) {
   return cut || springs.broken[k] != 0 ? 0.0 : std::min(springs.strength[k], no_bound);
 }
 
+/// Direction of the steel after node k, where it passes from block to block.
+Vec2 direction_there(const Simulation& sim, Id k) {
+  const Bolts& bolts = sim.attached.bolts;
+  const BarFrame frame = bar_frame(bolts, sim.scene->blocks, sim.motion.state, k);
+  if (bolts.hinges[k] == 0.0) return frame.t;
+  const BarLink link = link_of(bolts, frame, k);
+  return link.cosine * frame.t + link.sine * perp(frame.t);
+}
+
 /// A grouted bolt: where it passes from block to block its steel carries up to its yield force
 /// along it, and its dowel across it; between two such places the bond takes up the difference.
 void add_grouted(RigidBlocks& rigid, const Simulation& sim, Id first, Id last) {
@@ -25,7 +34,7 @@ void add_grouted(RigidBlocks& rigid, const Simulation& sim, Id first, Id last) {
   for (Id k = first; k < last; ++k) {
     if (bolts.bonds.stiffness[k] > 0.0) grout.strength += bolts.bonds.strength[k];
     if (k + 1 == last || bolts.crossing[k] == 0) continue;
-    const Vec2 t = bar_frame(bolts, sim.scene->blocks, sim.motion.state, k).t;
+    const Vec2 t = direction_there(sim, k);
     const Vec2 place = node_place(bolts, sim.scene->blocks, sim.motion.state, k);
     const double yield = strength_now(sim, bolts.bars, k);
     rigid.ties.push_back({bolts.host[k], bolts.host[k + 1], place, place, t, -yield, yield});

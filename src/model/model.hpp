@@ -285,10 +285,14 @@ struct BoltBond {
   double strength = 0.0;   ///< N/m
 };
 
-/// A bolt sheared by a joint: elastic up to its strength, perfectly plastic beyond it.
+/// A bolt sheared by a joint: elastic up to its strength, perfectly plastic beyond it. Both are
+/// given, or follow from the bar and from what it is bedded in.
 struct BoltDowel {
-  double stiffness = 0.0;  ///< N/m
-  double strength = 0.0;   ///< N
+  std::optional<double> stiffness{};           ///< N/m
+  std::optional<double> strength{};            ///< N
+  std::optional<double> bearing_strength{};    ///< Pa; empty: the ucs of the rock
+  std::optional<double> foundation_modulus{};  ///< Pa; empty: Young's modulus of the rock
+  bool of_bar() const { return !stiffness && !strength; }
 };
 
 /// [[bolt]], per bolt and not per metre of thickness.
@@ -303,7 +307,7 @@ struct Bolt {
   double spacing = 1.0;                  ///< m, out of plane
   double pretension = 0.0;               ///< N
   BoltBond bond;                         ///< between bolt and rock along the bolt
-  BoltDowel dowel;                       ///< across the bolt, where it crosses a joint
+  std::optional<BoltDowel> dowel;        ///< across the bolt, where it crosses a joint
   Where where;
 };
 

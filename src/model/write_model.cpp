@@ -127,7 +127,9 @@ struct Write {
   }
   std::string operator()(const SubTable& table) const {
     if (table.file != nullptr && !table.file->empty()) return written(*table.file);
-    return table.object == nullptr ? std::string{} : inline_table(table.keys, table.object);
+    if (table.object == nullptr) return {};
+    const std::string text = inline_table(table.keys, table.object);
+    return text.empty() && table.make != nullptr ? "{}" : text;  // it is there, with all defaults
   }
   std::string operator()(const TableList& tables) const {
     std::string text;

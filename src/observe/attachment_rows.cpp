@@ -69,7 +69,8 @@ std::string bolts_rows(const Simulation& sim) {
       csv.add(sim.motion.state.time).add(b.rows[r].name).add(b.distance[k]);
       csv.add(node.place.x).add(node.place.y);
       csv.add(node.axial).add(node.bond).add(node.dowel).add(node.utilisation);
-      csv.add(int{node.yielded}).add(int{node.ruptured}).end();
+      csv.add(int{node.yielded}).add(int{node.ruptured});
+      csv.add(node.dowel_utilisation).add(node.angle).end();
     }
   }
   return csv.text();

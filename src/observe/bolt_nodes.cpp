@@ -19,6 +19,12 @@ double axial_force(const Bolts& b, const BoltData& row, std::size_t k, std::size
   return 0.5 * (before + after);
 }
 
+/// The bar beside node k that has a dowel, or `last`.
+std::size_t dowel_at(const Bolts& b, std::size_t k, std::size_t first, std::size_t last) {
+  if (k + 1 < last && b.dowels.stiffness[k] > 0.0) return k;
+  return k > first && b.dowels.stiffness[k - 1] > 0.0 ? k - 1 : last;
+}
+
 double part(double force, double strength) {
   return force != 0.0 && strength > 0.0 ? std::abs(force) / strength : 0.0;
 }
@@ -30,10 +36,7 @@ BoltNode bolt_node(const Simulation& sim, std::size_t r, std::size_t k) {
   const BoltData& row = b.rows[r];
   const std::size_t first = b.begin[r], last = b.begin[r + 1];
   const double axial = axial_force(b, row, k, first, last),
-               bond = b.bonded[k] > 0.0 ? b.bonds.force[k] / b.bonded[k] : 0.0,
-               dowel = k + 1 < last && b.dowels.stiffness[k] > 0.0    ? b.dowels.force[k]
-                       : k > first && b.dowels.stiffness[k - 1] > 0.0 ? b.dowels.force[k - 1]
-                                                                      : 0.0;
+               bond = b.bonded[k] > 0.0 ? b.bonds.force[k] / b.bonded[k] : 0.0;
   // Bars that end in excavated rock have been cut with it.
   const auto holds = [&](std::size_t n) {
     return !is_cut_off(b, sim.motion.state, n) && !is_cut_off(b, sim.motion.state, n + 1);
@@ -46,9 +49,17 @@ BoltNode bolt_node(const Simulation& sim, std::size_t r, std::size_t k) {
   node.place = node_place(b, sim.scene->blocks, sim.motion.state, k) + sim.scene->blocks.origin;
   node.axial = axial / row.share;
   node.bond = bond / row.share;
-  node.dowel = dowel / row.share;
-  node.utilisation = std::max(
-      {part(axial, row.yield), part(bond, row.bond_strength), part(dowel, row.dowel_strength)});
+  if (const std::size_t at = dowel_at(b, k, first, last); at != last) {
+    node.dowel = b.dowels.force[at] / row.share;
+    node.dowel_utilisation = part(b.dowels.force[at], b.dowels.strength[at]);
+    if (b.hinges[at] > 0.0) {
+      node.dowel_utilisation = std::hypot(node.dowel_utilisation, part(axial, row.yield));
+      const BarLink link = link_of(b, bar_frame(b, sim.scene->blocks, sim.motion.state, at), at);
+      node.angle = std::atan2(link.sine, link.cosine);
+    }
+  }
+  node.utilisation =
+      std::max({part(axial, row.yield), part(bond, row.bond_strength), node.dowel_utilisation});
   node.yielded = near(b.bars.yielded);
   node.ruptured = near(b.bars.broken);
   return node;

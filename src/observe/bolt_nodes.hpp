@@ -10,7 +10,9 @@ struct BoltNode {
   Vec2 place;                                   ///< now, m
   double axial = 0.0, bond = 0.0, dowel = 0.0;  ///< N, N/m, N
   double utilisation = 0.0;                     ///< the largest of the three
-  bool yielded = false, ruptured = false;       ///< the steel beside it, where it has not been cut
+  double dowel_utilisation = 0.0;
+  double angle = 0.0;                      ///< by which a link has turned, rad
+  bool yielded = false, ruptured = false;  ///< the steel beside it, where it has not been cut
 };
 
 /// Node k of the bolt in row r of Bolts::rows.

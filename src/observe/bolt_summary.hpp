@@ -8,12 +8,13 @@
 
 namespace edda {
 
-/// The largest axial force of a bolt in the frames so far.
+/// The largest axial force of a bolt in the frames so far, and its largest dowel force.
 struct BoltPeak {
   double force = 0.0;     ///< N, of one bolt, positive in tension
   double time = 0.0;      ///< s
   double distance = 0.0;  ///< m from its head
   Vec2 place;             ///< of the node then, m
+  double dowel = 0.0;     ///< N
 };
 
 /// Raises the peaks ([Bolts::rows]) to the forces now.

@@ -129,10 +129,15 @@ constexpr std::array bolts{
       "away from its head."},
     C{"dowel_force", "N", "Shear force of one bolt across the joint at this node."},
     C{"utilisation", "1",
-      "Largest of axial force over yield force, bond force over bond strength and dowel force over "
-      "dowel strength."},
+      "Largest of axial force over yield force, bond force over bond strength and "
+      "dowel_utilisation."},
     C{"yielded", "1", "1: the steel beside the node has yielded at some time; 0: it has not."},
     C{"ruptured", "1", "1: the steel beside the node has ruptured; 0: it has not."},
+    C{"dowel_utilisation", "1",
+      "Dowel force over dowel strength; of a dowel whose strength follows from the bar that of "
+      "shear and axial force together, sqrt((V/V_p)^2 + (N/N_p)^2)."},
+    C{"dowel_angle", "rad",
+      "Angle by which such a bar has turned in the joint at this node, counter-clockwise."},
 };
 
 constexpr std::array bolt_summary{
@@ -156,6 +161,11 @@ constexpr std::array bolt_summary{
     C{"bond_slipped", "1", "1: the bond has slipped somewhere at some time; 0: it has not."},
     C{"yielded", "1", "1: the steel has yielded somewhere at some time; 0: it has not."},
     C{"ruptured", "1", "1: the steel has ruptured somewhere; 0: it has not."},
+    C{"largest_dowel_force", "N",
+      "Shear force of one bolt that is largest by size, of all joints that it crosses in all "
+      "frames."},
+    C{"dowel_utilisation", "1",
+      "Largest dowel_utilisation of its nodes at the end, as in bolts.csv."},
 };
 
 constexpr std::array linings{

@@ -41,7 +41,9 @@ inline bool fits(const Bolts& b, const Simulation& s) {
   for (const auto* values : {&b.distance, &b.bonded, &b.length, &b.slip}) {
     if (values->size() != nodes) return false;
   }
-  if (b.crossing.size() != nodes || b.on_host.size() != nodes) return false;
+  if (b.crossing.size() != nodes || b.hinges.size() != nodes || b.on_host.size() != nodes) {
+    return false;
+  }
   if (b.begin.size() != b.rows.size() + 1 || b.begin.front() != 0 || b.begin.back() != nodes) {
     return false;
   }
@@ -78,6 +80,7 @@ void list_bolts(Archive& a, Simulation& s) {
   a("bolts.bonded", b.bonded);
   a("bolts.length", b.length);
   a("bolts.crossing", b.crossing);
+  a("bolts.hinges", b.hinges);
   a("bolts.slip", b.slip);
   list_bolt_springs(a, "bolts.bonds.", b.bonds);
   list_bolt_springs(a, "bolts.bars.", b.bars);

@@ -236,6 +236,7 @@ static void list_peaks(Archive& a, std::vector<BoltPeak>& peaks) {
   member("files.bolt_peaks.distance", [](BoltPeak& p) -> double& { return p.distance; });
   member("files.bolt_peaks.x", [](BoltPeak& p) -> double& { return p.place.x; });
   member("files.bolt_peaks.y", [](BoltPeak& p) -> double& { return p.place.y; });
+  member("files.bolt_peaks.dowel", [](BoltPeak& p) -> double& { return p.dowel; });
 }
 
 template <class Archive>

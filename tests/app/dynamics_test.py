@@ -56,6 +56,15 @@ rupture_strain = 0.02
 bond = { stiffness = 2e8, strength = 3e4 }
 dowel = { stiffness = 2e7, strength = 1e4 }
 [[bolt]]
+name = "D"
+from = [3.3, 2.4]
+to = [3.5, -0.8]
+diameter = 0.02
+yield_stress = 300e6
+rupture_strain = 0.05
+bond = { stiffness = 2e8, strength = 3e4 }
+dowel = { bearing_strength = 1e6 }
+[[bolt]]
 type = "end"
 from = [2.7, 2.4]
 to = [2.7, -0.5]
@@ -88,8 +97,10 @@ class Dynamics(Program):
         self.assertAlmostEqual(float(reactions[20]["load.fy"]), -8e4, delta=1.0)
         bolts = self.rows("r/bolts.csv")
         self.assertEqual(list(bolts[0]), "time bolt distance x y axial_force bond_force dowel_force utilisation yielded"
-                                         " ruptured".split())
-        self.assertEqual(sorted({r["bolt"] for r in bolts}), ["1", "B"])
+                                         " ruptured dowel_utilisation dowel_angle".split())
+        self.assertEqual(sorted({r["bolt"] for r in bolts}), ["2", "B", "D"])
+        turned = [r for r in bolts if r["bolt"] == "D" and float(r["dowel_angle"]) != 0.0]
+        self.assertAlmostEqual(max(float(r["dowel_utilisation"]) for r in turned), 1.0, delta=1e-4)
         self.assertEqual(sorted({float(r["time"]) for r in bolts}), [0.0, 0.1, 0.2, 0.3, 0.4])
         self.assertEqual(float(bolts[-1]["axial_force"]), float(bolts[-2]["axial_force"]))
         for row in self.rows("r/bolt_summary.csv"):
@@ -98,16 +109,17 @@ class Dynamics(Program):
             self.assertEqual([row[c] for c in ("largest_force", "time", "distance", "x", "y")],
                              [largest[c] for c in ("axial_force", "time", "distance", "x", "y")])
             end = [r for r in of if r["time"] == bolts[-1]["time"]]
-            for column in ("axial_force", "bond_force", "dowel_force", "utilisation"):
+            for column in ("axial_force", "bond_force", "dowel_force", "utilisation", "dowel_utilisation"):
                 self.assertEqual(row[column], max((r[column] for r in end), key=lambda cell: abs(float(cell))), column)
             self.assertEqual(row["yielded"], max(r["yielded"] for r in end))
+            self.assertEqual(row["largest_dowel_force"], max((r["dowel_force"] for r in of), key=lambda cell: abs(float(cell))))
         self.assertEqual([r["bolt"] for r in self.rows("r/bolt_summary.csv")], list(dict.fromkeys(r["bolt"] for r in bolts)))
-        start = [r for r in bolts if r["bolt"] == "1" and float(r["time"]) == 0.0]
+        start = [r for r in bolts if r["bolt"] == "2" and float(r["time"]) == 0.0]
         self.assertAlmostEqual(float(start[0]["axial_force"]), 2e4, delta=1e-6)
 
     def test_check_reports_them(self):
         out = self.expect(0, "check", "m.toml").stdout
-        for part in ("shaking quake: time, ax and ay in m/s2, 4 rows to 0.3 s, peak", "its velocity ends at", "sine of 1 m/s2 and 5 Hz", "2 bolts of"):
+        for part in ("shaking quake: time, ax and ay in m/s2, 4 rows to 0.3 s, peak", "its velocity ends at", "sine of 1 m/s2 and 5 Hz", "3 bolts of"):
             self.assertIn(part, out)
 
     def test_bytes_do_not_depend_on_threads_or_stops(self):
@@ -136,7 +148,8 @@ class Dynamics(Program):
         for old, new, key in (("along = [[4, 0], [4, 2.5]]", "along = [[5, 0], [5, 2.5]]", "boundary.far"),
                               ("along = [[0, 2.5], [4, 2.5]]", "along = [[0, 3], [4, 3]]", "boundary.load"),
                               ("from = [1.3, 2.4]\nto = [1.6, -0.8]", "from = [9, 2.4]\nto = [9, 1]", "bolt.B"),
-                              ("from = [2.7, 2.4]", "from = [2.7, 2.6]", "bolt.1")):
+                              ("from = [2.7, 2.4]", "from = [2.7, 2.6]", "bolt.2"),
+                              ("bearing_strength = 1e6", "foundation_modulus = 1e9", "bolt.D.dowel.bearing_strength")):
             (self.dir / "bad.toml").write_text(MODEL.replace(old, new))
             done = self.expect(2, "check", "bad.toml")
             self.assertIn(key, done.stderr)

@@ -1,6 +1,7 @@
 // What bolts do while their blocks are moved by hand.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -106,7 +107,7 @@ void expect_gradients(Bolt bolt) {
 TEST(BoltChain, ForcesAreGradientsOfTheStoredEnergy) {
   Bolt bolt = grouted({1, 0.1}, {2, 4});
   bolt.bond = {1e8, 1e12};
-  bolt.dowel = {1e7, 1e12};
+  bolt.dowel = BoltDowel{1e7, 1e12};
   expect_gradients(bolt);
   expect_gradients(with_ends({1, 1}, {2, 4}));
 }
@@ -180,6 +181,151 @@ TEST(BoltChain, OneWithEndsGoesSlack) {
   EXPECT_EQ(whole(on_block(m, 1)).y, 0.0);
   shift_upper(m, {0.0, 2e-4});
   EXPECT_NEAR(-whole(on_block(m, 1)).y, steel * 1e-4 / 3.0, 1e-6 * steel * 1e-4);
+}
+
+/// Two blocks with a closed joint, as wide as asked, and a bolt of 2 m at `angle` from its normal,
+/// whose dowel follows from it; all turned by `turn`, and mirrored if asked. The upper block may be
+/// several, the lowest of the height `cut`.
+struct Sheared {
+  Bolted m;
+  double angle, turn, mirrored;
+
+  Sheared(double angle_, double turn_ = 0.0, bool mirror = false, double half_width = 2.0,
+          const Bolt& more = {}, double cut = 2.0)
+      : angle(angle_), turn(turn_), mirrored(mirror ? -1.0 : 1.0) {
+    const auto ring = [&](double low, double high) {
+      Ring r;
+      for (const Vec2 p : {Vec2{-half_width, low}, Vec2{half_width, low}, Vec2{half_width, high},
+                           Vec2{-half_width, high}})
+        r.push_back(placed(p));
+      if (mirror) std::reverse(r.begin(), r.end());
+      return r;
+    };
+    m.add(ring(-2, 0));
+    m.add(ring(0, cut));
+    for (double low = cut; low < 2.0; low += 0.5) m.add(ring(low, std::min(low + 0.5, 2.0)));
+    m.build();
+    const Vec2 along{std::sin(angle), std::cos(angle)};
+    Bolt bolt = grouted(placed(-1.0 * along), placed(along));
+    bolt.bond = {1e9, 4e5};
+    bolt.yield_stress = 500e6;
+    bolt.rupture_strain = more.rupture_strain;
+    bolt.dowel = BoltDowel{{}, {}, 40e6, 12e9};
+    m.model.bolts = {bolt};
+    m.attach();
+    EXPECT_TRUE(m.faults.empty());
+  }
+  Vec2 placed(Vec2 p) const { return rotated({mirrored * p.x, p.y}, turn); }
+  /// Moves the upper block by u along the joint and v off it.
+  void shift(double u, double v = 0.0) {
+    const Vec2 by = placed({u, v});
+    for (std::size_t i = 1; i < m.blocks.size(); ++i) {
+      for (std::size_t k = 0; k < 3; ++k) {
+        m.state.position.x[k][i] += by.x;
+        m.state.position.y[k][i] += by.y;
+      }
+    }
+    update_bolts(m.bolts, m.blocks, m.state);
+  }
+  /// Resistance to shear along the joint and to its opening.
+  Vec2 resistance() const {
+    Vec2 f;
+    for (std::size_t i = 1; i < m.blocks.size(); ++i) f += rotated(whole(on_block(m, i)), -turn);
+    return {-mirrored * f.x, -f.y};
+  }
+  const Bolts& bolts() const { return m.bolts; }
+  std::size_t link() const {
+    const auto& h = m.bolts.hinges;
+    return static_cast<std::size_t>(
+        std::find_if(h.begin(), h.end(), [](double x) { return x > 0.0; }) - h.begin());
+  }
+};
+
+const double area = 0.25 * std::numbers::pi * diameter * diameter;
+const double collapse = std::sqrt(2.0 * 500e6 * std::pow(diameter, 3) / 6.0 * 40e6 * diameter);
+
+/// At a right angle to the joint: E I beta^3, then the collapse load, while offsets are small.
+TEST(BoltDowel, ResistsAsItsBarInItsFoundation) {
+  Sheared s(0.0);
+  const double bending = young * std::numbers::pi * std::pow(diameter, 4) / 64.0;
+  const double beta = std::pow(12e9 / (4.0 * bending), 0.25);
+  s.shift(1e-6);
+  EXPECT_NEAR(s.resistance().x / (bending * std::pow(beta, 3) * 1e-6), 1.0, 1e-3);
+  for (int n = 0; n < 700; ++n) s.shift(1e-6);
+  EXPECT_NEAR(s.resistance().x / collapse, 1.0, 1e-2);
+  EXPECT_EQ(s.bolts().dowels.yielded[s.link()], 1);
+}
+
+/// Far into the joint the bar is stretched until it yields, and its tension acts along the joint:
+/// shear and axial force stay on their ellipse, and the resultant turns with the bar.
+TEST(BoltDowel, TurnsIntoTheJoint) {
+  Sheared s(0.0);
+  for (int n = 0; n < 3000; ++n) s.shift(1e-5);
+  const std::size_t k = s.link();
+  const double n = s.bolts().bars.force[k] / (500e6 * area),
+               v = std::abs(s.bolts().dowels.force[k]) / collapse;
+  EXPECT_NEAR(std::hypot(n, v), 1.0, 1e-3);
+  EXPECT_GT(n, 0.8);
+  const double hinges = s.bolts().hinges[k];
+  const double theta = std::atan2(0.03, hinges);
+  const double part = hinges / std::hypot(0.03, hinges);
+  const double axial = n * 500e6 * area, across = v * collapse * part;
+  EXPECT_NEAR(s.resistance().x / (axial * std::sin(theta) + across * std::cos(theta)), 1.0, 2e-2);
+  EXPECT_NEAR(s.resistance().y / (axial * std::cos(theta) - across * std::sin(theta)), 1.0, 2e-2);
+  EXPECT_GT(s.resistance().x, 1.5 * collapse);
+  EXPECT_LE(s.bolts().most_increments, 12);
+}
+
+/// A way to and fro through yield, and on to rupture: the work is stored or spent, and what is
+/// spent never falls.
+TEST(BoltDowel, BooksEveryJoule) {
+  Bolt weak;
+  weak.rupture_strain = 0.03;
+  Sheared s(0.4, 0.0, false, 2.0, weak);
+  double work = 0.0, spent = 0.0;
+  Vec2 before = s.resistance();
+  for (int n = 0; n < 12000; ++n) {
+    const double way = n > 3000 && n < 5000 ? -1.0 : 1.0, v = 0.3 * way;
+    s.shift(way * 2e-6, v * 2e-6);
+    const Vec2 now = s.resistance();
+    work += 0.5 * dot(before + now, Vec2{way, v} * 2e-6);
+    before = now;
+    const Bolts& b = s.bolts();
+    const double all = b.slipped + b.pending_friction + b.fractured + b.pending_fracture;
+    EXPECT_GE(all, spent - 1e-9 * work);
+    spent = all;
+    ASSERT_NEAR(stored(b) + spent, work, 3e-3 * work + 1e-6) << n;
+  }
+  EXPECT_GT(s.bolts().slipped, 100.0);
+  EXPECT_GT(s.bolts().fractured, 1.0);
+  EXPECT_NEAR(norm(s.resistance()), 0.0, 1e-6);
+}
+
+/// Whatever way the model lies, and however large its blocks are.
+TEST(BoltDowel, KnowsNoDirectionAndNoBlockSize) {
+  Sheared as_drawn(0.5), turned(0.5, 1.1), mirrored(0.5, 0.3, true), wide(0.5, 0.0, false, 8.0);
+  for (int n = 0; n < 2000; ++n) {
+    for (Sheared* s : {&as_drawn, &turned, &mirrored, &wide}) s->shift(1e-5, 2e-6);
+  }
+  const Vec2 r = as_drawn.resistance();
+  EXPECT_GT(norm(r), 1e5);
+  for (const Sheared* s : {&turned, &mirrored, &wide})
+    EXPECT_LT(norm(s->resistance() - r), 1e-6 * norm(r));
+  // Joints that do not move take nothing; the nodes of the bolt are other ones.
+  for (const double cut : {0.4, 0.1}) {
+    Sheared in_pieces(0.5, 0.0, false, 2.0, {}, cut);
+    EXPECT_GT(in_pieces.m.blocks.size(), 4u);
+    for (int n = 0; n < 2000; ++n) in_pieces.shift(1e-5, 2e-6);
+    EXPECT_LT(norm(in_pieces.resistance() - r), 2e-3 * norm(r));
+  }
+}
+
+TEST(BoltDowel, ForcesAreGradientsOfTheStoredEnergy) {
+  Bolt bolt = grouted({1, 0.1}, {2, 4});
+  bolt.bond = {1e8, 1e12};
+  bolt.yield_stress = 1e15;
+  bolt.dowel = BoltDowel{{}, {}, 1e14, 1e9};
+  expect_gradients(bolt);
 }
 
 }  // namespace

@@ -31,7 +31,7 @@ inline Bolt grouted(Vec2 from, Vec2 to) {
   b.to = to;
   b.diameter = 0.02;
   b.bond = {1e9, 1e5};
-  b.dowel = {1e7, 1e4};
+  b.dowel = BoltDowel{1e7, 1e4};
   return b;
 }
 

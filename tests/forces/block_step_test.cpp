@@ -2,7 +2,9 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>
+#include <array>
 #include <cmath>
+#include <cstdlib>
 #include <limits>
 #include <numbers>
 
@@ -266,6 +268,69 @@ TEST(BoltMatrix, HasTheSpringsOfABolt) {
   EXPECT_NEAR(up.dot(ends * up), 2.0 * stiffness, 1e-6 * stiffness);
   // At most its yield, which a strain of 0.01 is beyond.
   EXPECT_NEAR(across.dot(ends * across), 2.0 * 400e6 * area / 3.0, 1e-6 * stiffness);
+}
+
+/// Energy of a link that has turned by half a radian, within its strength and beyond it and on hard
+/// and soft foundations, of any displacements of both blocks, and of those across the bolt alone:
+/// the bound of the blocks is never less.
+TEST(BoltMatrix, BoundsALinkThatHasTurned) {
+  for (const auto& [yield, foundation] :
+       {std::pair{400e6, 20e9}, {40e9, 20e9}, {400e6, 1e7}, {40e9, 1e7}}) {
+    test::Bolted m;
+    m.add({{0, 0}, {4, 0}, {4, 2}, {0, 2}});
+    m.add({{0, 2}, {4, 2}, {4, 4}, {0, 4}});
+    m.build();
+    Bolt bolt = test::grouted({1.5, 0.5}, {2.5, 3.5});
+    bolt.yield_stress = yield;
+    bolt.dowel = BoltDowel{{}, {}, yield / 8.0, foundation};
+    m.model.bolts = {bolt};
+    m.attach();
+    ASSERT_TRUE(m.faults.empty());
+    const auto move = [&](State& state, std::size_t i, const NodalVector& u) {
+      for (std::size_t k = 0; k < 3; ++k) {
+        state.position.x[k][i] += u[static_cast<Eigen::Index>(2 * k)];
+        state.position.y[k][i] += u[static_cast<Eigen::Index>(2 * k + 1)];
+      }
+    };
+    for (int n = 0; n < 400; ++n) {
+      move(m.state, 1, moved({1e-4, 0.0}));
+      update_bolts(m.bolts, m.blocks, m.state);
+    }
+    const auto forces = [&](const NodalVector& low, const NodalVector& high) {
+      Bolts bolts = m.bolts;
+      State state = m.state;
+      move(state, 0, low);
+      move(state, 1, high);
+      update_bolts(bolts, m.blocks, state);
+      std::array<NodalVector, 2> f;
+      for (std::size_t i = 0; i < 2; ++i) {
+        BlockForces on{m.blocks, i};
+        add_bolts(on, bolts);
+        for (std::size_t k = 0; k < 3; ++k) {
+          f[i][static_cast<Eigen::Index>(2 * k)] = on.sum.nodes[k].x;
+          f[i][static_cast<Eigen::Index>(2 * k + 1)] = on.sum.nodes[k].y;
+        }
+      }
+      return f;
+    };
+    const std::array<NodalMatrix, 2> bound{bolt_matrix(m.bolts, m.blocks, m.state, 0),
+                                           bolt_matrix(m.bolts, m.blocks, m.state, 1)};
+    double largest = 0.0;
+    std::srand(1);
+    for (int n = 0; n < 300; ++n) {
+      const bool across = n % 10 == 0;
+      const NodalVector low = across ? moved({3.0, -1.0}) : NodalVector::Random(),
+                        high = across ? NodalVector(-low) : NodalVector::Random();
+      const double h = 1e-8;
+      const auto more = forces(h * low, h * high), less = forces(-h * low, -h * high);
+      const double energy =
+          ((less[0] - more[0]).dot(low) + (less[1] - more[1]).dot(high)) / 2.0 / h;
+      const double most = low.dot(bound[0] * low) + high.dot(bound[1] * high);
+      largest = std::max(largest, energy / most);
+    }
+    EXPECT_LT(largest, 1.0);
+    EXPECT_GT(largest, 0.02);
+  }
 }
 
 /// A block that needs a step of 1 s takes three times its mass more to bear one of 2 s.

@@ -285,6 +285,16 @@ spacing = 2.0
 pretension = 1e3
 bond = { stiffness = "1 GN/m2", strength = "400 kN/m" }
 dowel = { stiffness = "100 MN/m", strength = "150 kN" }
+[[bolt_pattern]]
+opening = "cavern"
+from_angle = 10
+to_angle = 20
+count = 2
+length = 2
+diameter = 0.02
+yield_stress = 4e8
+bond = { stiffness = 1e9, strength = 4e5 }
+dowel = { bearing_strength = "60 MPa", foundation_modulus = "20 GPa" }
 [[lining]]
 name = "shell"
 opening = "cavern"

@@ -308,7 +308,7 @@ void expect_every_bolt_key(const Model& m) {
   EXPECT_EQ(bolt.rupture_strain, 0.08);
   EXPECT_EQ(bolt.spacing, 1.5);
   EXPECT_EQ(bolt.pretension, 30e3);
-  ASSERT_EQ(m.bolt_patterns.size(), 1U);
+  ASSERT_EQ(m.bolt_patterns.size(), 2U);
   const BoltPattern& pattern = m.bolt_patterns[0];
   EXPECT_EQ(pattern.opening, "cavern");
   EXPECT_EQ(pattern.from_angle, 10.0);
@@ -318,8 +318,14 @@ void expect_every_bolt_key(const Model& m) {
   EXPECT_EQ(pattern.bolt.yield_stress, 4e8);
   EXPECT_EQ(pattern.bolt.bond.stiffness, 1e9);
   EXPECT_EQ(pattern.bolt.bond.strength, 4e5);
-  EXPECT_EQ(pattern.bolt.dowel.stiffness, 1e8);
-  EXPECT_EQ(pattern.bolt.dowel.strength, 1.5e5);
+  EXPECT_EQ(pattern.bolt.dowel->stiffness, 1e8);
+  EXPECT_EQ(pattern.bolt.dowel->strength, 1.5e5);
+  EXPECT_FALSE(pattern.bolt.dowel->of_bar());
+  EXPECT_FALSE(bolt.dowel);
+  const BoltDowel& of_bar = *m.bolt_patterns[1].bolt.dowel;
+  EXPECT_TRUE(of_bar.of_bar());
+  EXPECT_EQ(of_bar.bearing_strength, 60e6);
+  EXPECT_EQ(of_bar.foundation_modulus, 20e9);
 }
 
 /// Loads, water and monitors.
@@ -457,6 +463,17 @@ TEST(WriteModel, EveryKeyIsReadAndComesBack) {
   expect_every_run_key(second);
   EXPECT_EQ(first.joints[1].peak.friction_angle, second.joints[1].peak.friction_angle);
   EXPECT_EQ(to_toml(second), written);
+}
+
+TEST(WriteModel, ADowelThatIsAllOfItsBarComesBack) {
+  const Model first =
+      read_or_fail(std::string(every_key) +
+                   "[[bolt]]\nfrom = [15, 6]\nto = [15, 9]\ndiameter = 0.025\n"
+                   "yield_stress = 5e8\nbond = { stiffness = 1e9, strength = 4e5 }\n"
+                   "dowel = {}\n");
+  ASSERT_TRUE(first.bolts.back().dowel);
+  EXPECT_TRUE(first.bolts.back().dowel->of_bar());
+  EXPECT_TRUE(read_or_fail(to_toml(first)).bolts.back().dowel);
 }
 
 }  // namespace

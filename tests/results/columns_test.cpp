@@ -81,7 +81,7 @@ TEST(Columns, KeepTheirNames) {
   EXPECT_EQ(header_of(ResultFile::reactions), "time,base.fx,base.fy,1.fx,1.fy\n");
   EXPECT_EQ(header_of(ResultFile::bolts),
             "time,bolt,distance,x,y,axial_force,bond_force,dowel_force,utilisation,yielded,"
-            "ruptured\n");
+            "ruptured,dowel_utilisation,dowel_angle\n");
   EXPECT_EQ(header_of(ResultFile::linings),
             "time,lining,piece,distance,x,y,thrust,moment,shear,utilisation,hinge_rotation,"
             "material\n");
@@ -92,7 +92,7 @@ TEST(Columns, KeepTheirNames) {
             "bonded,detached,open,broken,yielded_bolts,loose,transfer,span.convergence\n");
   EXPECT_EQ(header_of(ResultFile::bolt_summary),
             "bolt,largest_force,time,distance,x,y,axial_force,bond_force,dowel_force,utilisation,"
-            "bond_slipped,yielded,ruptured\n");
+            "bond_slipped,yielded,ruptured,largest_dowel_force,dowel_utilisation\n");
   const std::string joints =
       "block_i,block_j,joint,x,y,normal_force,shear_force,opening,slip,state,ever_slipped,"
       "ever_opened,mobilised,length,closed_length,x_a,y_a,x_b,y_b,normal_stress,normal_stress_a,"

@@ -249,6 +249,85 @@ TEST(Bolt, DowelsAJoint) {
   EXPECT_LT(error, 1e-4);
 }
 
+const double plastic_moment = 500e6 * std::pow(diameter, 3) / 6.0;
+
+/// The same with a dowel that follows from the bar.
+TEST(Bolt, DowelsAJointByItsBar) {
+  const double modulus = 15e9, pressure = 50e6;
+  Simulation sim = scene(two_blocks(
+      grouted + "spacing = 1.5\nyield_stress = 500e6\n"
+                "dowel = { bearing_strength = 50e6, foundation_modulus = 15e9 }\n"
+                "[[boundary]]\nname = 'pull'\nalong = [[2, 0.0], [2, 4]]\ntype = 'velocity'\n"
+                "velocity = [0.02, 0]\nstiffness = 1e9\n",
+      "duration = 0.08\ndamping = { contact = 0.2, mass = 50.0 }\n"));
+  sim.scene.edit().model.gravity = {0.0, -9.81};
+  const double bending = young * std::numbers::pi * std::pow(diameter, 4) / 64.0;
+  const double beta = std::pow(modulus / (4.0 * bending), 0.25);
+  const double stiffness = bending * std::pow(beta, 3),
+               strength = std::sqrt(2.0 * plastic_moment * pressure * diameter);
+  double error = 0.0, at_half = 0.0;
+  const auto shear = [&] { return -on_upper(sim).x; };
+  run(sim, [&](Simulation& s) {
+    keep_largest(error, account_energy(s).error);
+    const double u = displacement(s, 1).x;
+    if (u < 0.5 * strength / stiffness && u > 0.1 * strength / stiffness) at_half = shear() / u;
+  });
+  expect_relative({99, "", "shear stiffness of the bolted joint, less friction", "N/m"}, at_half,
+                  stiffness / 1.5, 1e-2);
+  expect_relative({99, "", "shear strength that the bolt adds", "N"}, shear(), strength / 1.5,
+                  1e-2);
+  EXPECT_LT(error, 1e-4);
+}
+
+/// A joint with friction of 30 degrees, sheared until its bolt at `angle` from the normal breaks.
+struct ShearTest {
+  double resistance = 0.0;    ///< less the joint's own, over the tensile strength of the bolt
+  double displacement = 0.0;  ///< when it breaks, in diameters of the bolt
+};
+
+ShearTest shear_test(double angle, double ucs) {
+  const Vec2 along = rotated({0.0, 1.5}, -radians(angle));
+  Simulation sim = scene(
+      two_blocks("[[bolt]]\nfrom = [" + number(-along.x) + ", " + number(-along.y) + "]\nto = [" +
+                     number(along.x) + ", " + number(along.y) +
+                     "]\ndiameter = 0.025\nyield_stress = 500e6\nrupture_strain = 0.05\n"
+                     "bond = { stiffness = 3e9, strength = 1e6 }\ndowel = { bearing_strength = " +
+                     number(1e6 * ucs) + ", foundation_modulus = " + number(3e8 * ucs) + " }\n",
+                 "duration = 1.0\n"));
+  ShearTest test;
+  for (int n = 1; n < 4000; ++n) {
+    shift_upper(sim, {2e-5, 0.0});
+    const Vec2 f = -1.0 * on_upper(sim);
+    if (norm(f) < 1.0) {
+      test.displacement = n * 2e-5 / diameter;
+      break;
+    }
+    test.resistance =
+        std::max(test.resistance, (f.x + f.y * std::tan(radians(30.0))) / (500e6 * area()));
+  }
+  return test;
+}
+
+/// The formulas of Spang and Egger (1990), where the one for the displacement is positive.
+TEST(Bolt, ResistsAsInShearTests) {
+  for (const double ucs : {40.0, 60.0, 80.0}) {
+    for (const double angle : {0.0, 15.0, 30.0}) {
+      const double sine = std::sin(radians(angle)), cosine = std::cos(radians(angle));
+      const double resistance = (1.55 + 0.011 * std::pow(ucs, 1.07) * sine * sine) *
+                                std::pow(ucs, -0.14) * (0.85 + 0.45 * std::tan(radians(30.0)));
+      const double displacement =
+          (15.2 - 55.2 * std::pow(ucs, -0.14) + 56.2 * std::pow(ucs, -0.28)) *
+          (1.0 - sine / cosine * std::pow(70.0 / ucs, 0.125) / std::sqrt(cosine));
+      const ShearTest test = shear_test(angle, ucs);
+      const std::string which = brief(ucs) + " MPa, " + brief(angle) + " deg";
+      expect_relative({100, which, "shear resistance over tensile strength of the bolt", ""},
+                      test.resistance, resistance, 0.1);
+      expect_relative({100, which, "displacement at rupture over diameter of the bolt", ""},
+                      test.displacement, displacement, 0.25);
+    }
+  }
+}
+
 /// A block is suspended from an end-anchored bolt: in equilibrium the elongation of the bolt is
 /// that of the weight less the pretension.
 TEST(Bolt, HoldsABlockUp) {

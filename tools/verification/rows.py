@@ -432,4 +432,13 @@ ROWS = (
     Row(98, "Time enough is steady flow",
         "The groundwater beside a slope rises from 2 to 15 m, and has 100 h.",
         "Pressures of steady flow."),
+    Row(99, "A joint sheared across a bar",
+        "The joint of row 34, with a bolt of 25 mm and 500 MPa whose dowel follows from it, in rock that bears 15 GPa and 50 MPa.",
+        "Two beams on their foundations, E I beta^3; two plastic hinges, sqrt(2 M_p p). Both over the spacing."),
+    Row(100, "Shear tests of bolted joints",
+        "A joint with friction of 30 degrees is sheared until its bolt breaks, of 25 mm, 500 MPa and a rupture strain of 5 %, at 0 to 30"
+        " degrees from its normal, in rock of 40 to 80 MPa. What the bolt adds, with the friction that it gives, over its tensile"
+        " strength.",
+        "Spang and Egger (1990), fitted to tests.",
+        "In weaker and in harder rock and at larger angles the bar differs more from the fit (theory, section 14.2)."),
 )

@@ -185,6 +185,31 @@ void find_entrance(const Value* node, Shaking& shaking, Reading& reading) {
   }
 }
 
+/// Either stiffness and strength, or what they follow from. `node`: of the bolt or the pattern.
+void check_dowel(const Value* node, const Bolt& bolt, const Where& where, Reading& reading) {
+  const Value* dowel = find(node, "dowel");
+  if (!is_table(dowel)) return;
+  const std::string key = where.key + ".dowel";
+  const bool stiffness = given(dowel, "stiffness"), strength = given(dowel, "strength");
+  if (stiffness != strength) {
+    add_fault(reading, dowel->place, key + (stiffness ? ".strength" : ".stiffness"), "is missing",
+              "give stiffness and strength, or neither: then they follow from the bar");
+  } else if (!stiffness) {
+    if (bolt.type == BoltType::grouted && !bolt.yield_stress) {
+      add_fault(reading, node->place, where.key + ".yield_stress",
+                "is missing: the strength of the dowel follows from it",
+                "give yield_stress = \"500 MPa\", or stiffness and strength of the dowel");
+    }
+  } else {
+    for (const char* other : {"bearing_strength", "foundation_modulus"}) {
+      if (!given(dowel, other)) continue;
+      add_fault(reading, find(dowel, other)->place, key + "." + other,
+                "belongs to a dowel whose stiffness and strength follow from the bar",
+                "leave it out, or leave out stiffness and strength");
+    }
+  }
+}
+
 /// Checks the keys that a bolt of its type needs. `node`: of the bolt or the pattern.
 void check_bolt(const Value* node, const Bolt& bolt, const Where& where, Reading& reading) {
   const Value* bond = find(node, "bond");
@@ -197,7 +222,7 @@ void check_bolt(const Value* node, const Bolt& bolt, const Where& where, Reading
       add_fault(reading, bond->place, where.key + ".bond.stiffness", "is zero",
                 "give a stiffness above 0");
     }
-  } else if (bolt.dowel.stiffness > 0.0) {
+  } else if (bolt.dowel && (bolt.dowel->of_bar() || bolt.dowel->stiffness.value_or(0.0) > 0.0)) {
     add_fault(reading, find(node, "dowel")->place, where.key + ".dowel",
               "does not apply to type \"end\": it touches nothing between its ends",
               "leave it out, or give type = \"grouted\"");
@@ -261,6 +286,7 @@ void complete_bolts(const Value& root, Reading& reading) {
     const Bolt& bolt = model.bolts[i];
     const Value* node = element(root, "bolt", i);
     if (!is_table(node)) continue;
+    check_dowel(node, bolt, bolt.where, reading);
     check_bolt(node, bolt, bolt.where, reading);
     if (given(node, "from") && given(node, "to") && bolt.from == bolt.to) {
       add_fault(reading, find(node, "to")->place, bolt.where.key + ".to", "is where from is",
@@ -271,6 +297,7 @@ void complete_bolts(const Value& root, Reading& reading) {
     const BoltPattern& pattern = model.bolt_patterns[i];
     const Value* node = element(root, "bolt_pattern", i);
     if (!is_table(node)) continue;
+    check_dowel(node, pattern.bolt, pattern.where, reading);
     check_bolt(node, pattern.bolt, pattern.where, reading);
     check_opening(node, pattern.where.key, pattern.opening, reading);
   }

@@ -208,8 +208,10 @@ constexpr std::array bond_keys{
 };
 
 constexpr std::array dowel_keys{
-    Key{"stiffness", at<&BoltDowel::stiffness>, number(D::line_load, from(0)), required, "Force across the bolt per relative displacement of the walls of the joint."},
-    Key{"strength", at<&BoltDowel::strength>, number(D::force, from(0)), required, "Largest force across the bolt."},
+    Key{"stiffness", at<&BoltDowel::stiffness>, number(D::line_load, from(0)), otherwise("as of the bar in its foundation"), "Force across the bolt per relative displacement of the walls of the joint. Either this and strength, or neither: then both follow from diameter, young and yield_stress of the bar, it bends and yields under shear and tension together, and turns into the joint."},
+    Key{"strength", at<&BoltDowel::strength>, number(D::force, from(0)), otherwise("as of the bar in its foundation"), "Largest force across the bolt."},
+    Key{"bearing_strength", at<&BoltDowel::bearing_strength>, number(D::stress, above(0)), otherwise("ucs of the rock (of materials.NAME.strength or yield)"), "Pressure on the diameter of the bar at which it crushes grout and rock."},
+    Key{"foundation_modulus", at<&BoltDowel::foundation_modulus>, number(D::stress, above(0)), otherwise("Young's modulus of the rock"), "Force per metre of bar and metre of its deflection by which grout and rock bear on it."},
 };
 
 constexpr std::array bolt_keys{
@@ -224,7 +226,7 @@ constexpr std::array bolt_keys{
     Key{"spacing", at<&Bolt::spacing>, number(D::length, above(0)), initial, "Distance from bolt to bolt out of plane."},
     Key{"pretension", at<&Bolt::pretension>, number(D::force, from(0)), initial, "Force in the bolt when it is installed, per bolt."},
     Key{"bond", at<&Bolt::bond>, table, otherwise("none; required by a grouted bolt"), "Stiffness and strength of the grout, per metre of bolt."},
-    Key{"dowel", at<&Bolt::dowel>, table, otherwise("no dowel action"), "Stiffness and strength across the bolt where it crosses a joint, per bolt."},
+    Key{"dowel", at<&Bolt::dowel>, table, otherwise("no dowel action"), "Stiffness and strength across the bolt where it crosses a joint, per bolt; { } has both follow from the bar and the rock."},
 };
 
 constexpr std::array bolt_pattern_keys{

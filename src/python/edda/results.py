@@ -141,7 +141,8 @@ class Results:
         """A row per node of each bolt and frame; of a model with bolts.
 
         time (s), bolt (name), distance (m along it), x, y (m); axial_force (N, tension positive), bond_force (N/m),
-        dowel_force (N), each of one bolt; utilisation (largest part of a strength), yielded, ruptured (0 or 1).
+        dowel_force (N), each of one bolt; utilisation (largest part of a strength), yielded, ruptured (0 or 1);
+        dowel_utilisation, dowel_angle (rad by which the bar has turned in a joint).
         """
         return read_table(self._file("bolts.csv"))
 
@@ -151,7 +152,7 @@ class Results:
 
         bolt (name), largest_force (N, one bolt, tension positive) of all nodes and frames, with its time (s), distance (m from
         the head) and x, y (m); axial_force, dowel_force (N), bond_force (N/m) that are largest at the end; utilisation;
-        bond_slipped, yielded, ruptured (1 or 0, anywhere).
+        bond_slipped, yielded, ruptured (1 or 0, anywhere); largest_dowel_force (N, of all frames), dowel_utilisation.
         """
         return read_table(self._file("bolt_summary.csv"))
 
