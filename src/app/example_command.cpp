@@ -24,7 +24,7 @@ std::string title_of(const Example& example) {
 
 int list() {
   fmt::print("Built-in models (edda example NAME writes NAME.toml here):\n");
-  for (const Example& e : built_in_examples()) fmt::print("  {:<14} {}\n", e.name, title_of(e));
+  for (const Example& e : built_in_examples()) fmt::print("  {:<18} {}\n", e.name, title_of(e));
   return exit_code::done;
 }
 

@@ -37,6 +37,9 @@ bool acts_at_first(const Model& model, const std::string& name);
 /// stage installs them.
 bool installed_at_first(const Model& model, const std::string& name);
 
+/// The first stage that installs it.
+std::optional<std::size_t> installed_in(const Model& model, const std::string& name);
+
 /// Rows in Model::fills.
 std::vector<Index> fills_called(const Model& model, const std::vector<std::string>& names);
 /// The stage that places the fill of this name, and that which excavates it or an opening.
