@@ -1,5 +1,5 @@
-# Writes the models of a folder into a .cpp, so that `edda example` has them wherever it is installed. A table
-# NAME-something.csv belongs to NAME.toml.
+# Writes the models of a folder into a .cpp, so that `edda example` has them wherever it is installed, each with the table
+# of the folder that it names.
 function(embed_examples folder output)
   file(GLOB models CONFIGURE_DEPENDS ${folder}/*.toml)
   file(GLOB tables CONFIGURE_DEPENDS ${folder}/*.csv)
@@ -13,7 +13,8 @@ function(embed_examples folder output)
     set(table_text "")
     foreach(table ${tables})
       get_filename_component(table_name ${table} NAME)
-      if(table_name MATCHES "^${name}-")
+      string(FIND "${text}" "\"${table_name}\"" at)
+      if(at GREATER -1)
         set(table_file ${table_name})
         file(READ ${table} table_text)
       endif()

@@ -4,6 +4,8 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <fstream>
+#include <iterator>
 #include <memory>
 #include <string_view>
 
@@ -24,7 +26,7 @@ std::string title_of(const Example& example) {
 
 int list() {
   fmt::print("Built-in models (edda example NAME writes NAME.toml here):\n");
-  for (const Example& e : built_in_examples()) fmt::print("  {:<14} {}\n", e.name, title_of(e));
+  for (const Example& e : built_in_examples()) fmt::print("  {:<18} {}\n", e.name, title_of(e));
   return exit_code::done;
 }
 
@@ -47,14 +49,20 @@ int write_new(const std::string& path, const char* text) {
   return exit_code::done;
 }
 
+bool holds(const std::string& path, const std::string& text) {
+  std::ifstream file(path, std::ios::binary);
+  return file && std::string(std::istreambuf_iterator<char>(file), {}) == text;
+}
+
 int write(const Example& example) {
   const std::string path = std::string(example.name) + ".toml", table = example.table_name;
-  if (!table.empty()) {
-    // The model alone would be unusable.
+  // The model alone would be unusable. Another one may have the same table.
+  const bool new_table = !table.empty() && !holds(table, example.table);
+  if (new_table) {
     if (const int code = write_new(table, example.table); code != exit_code::done) return code;
   }
   if (const int code = write_new(path, example.text); code != exit_code::done) {
-    if (!table.empty()) std::remove(table.c_str());
+    if (new_table) std::remove(table.c_str());
     return code;
   }
   fmt::print("wrote {0}{1}; next: edda check {0}, edda run {0}\n", path,

@@ -14,6 +14,7 @@ namespace {
 struct Path {
   std::vector<Vec2> points;
   bool closed = false;
+  EndSections ends = {};
   std::size_t pieces() const { return closed ? points.size() : points.size() - 1; }
   Vec2 after(std::size_t k) const { return points[(k + 1) % points.size()]; }
   double length() const {
@@ -66,25 +67,29 @@ Path part_of_outline(const Path& whole, double from_angle, double to_angle) {
   return part;
 }
 
+/// The inner side of another lining; empty where that is faulty itself.
+Path path_on(const Model& model, const PolygonSet& polygons, const std::string& name) {
+  const auto below =
+      std::find_if(polygons.blocks.begin(), polygons.blocks.end(), [&](const BlockPolygon& b) {
+        return b.lining != none && model.linings[static_cast<std::size_t>(b.lining)].name == name;
+      });
+  if (below == polygons.blocks.end()) return {};
+  const StripSections s = sections_of(*below);
+  const Ring& ring = below->rings[s.closed ? 1 : 0];
+  Path inner{{ring.rbegin(), ring.rend()}, s.closed};
+  if (s.closed) return inner;
+  inner.points.resize(s.count);
+  const auto across = [&](std::uint32_t k) { return ring[s.inner(k)] - ring[s.outer(k)]; };
+  inner.ends = {across(0), across(s.count - 1)};
+  return inner;
+}
+
 /// In the coordinates of the polygons.
-Path path_of(const Model& model, const PolygonSet& polygons, const Lining& lining) {
+Path path_on_wall(const Model& model, const PolygonSet& polygons, const Lining& lining) {
   const auto local = [&](Path path) {
     for (Vec2& p : path.points) p -= polygons.origin;
     return path;
   };
-  if (!lining.on.empty()) {
-    const auto below =
-        std::find_if(polygons.blocks.begin(), polygons.blocks.end(), [&](const BlockPolygon& b) {
-          return b.lining != none &&
-                 model.linings[static_cast<std::size_t>(b.lining)].name == lining.on;
-        });
-    if (below == polygons.blocks.end()) return {};  // faulty itself
-    const StripSections s = sections_of(*below);
-    const Ring& ring = below->rings[s.closed ? 1 : 0];
-    Path inner{{ring.rbegin(), ring.rend()}, s.closed};
-    if (!s.closed) inner.points.resize(s.count);
-    return inner;
-  }
   if (!lining.along.empty()) {
     std::vector<Vec2> points = lining.along;
     const bool closed = points.size() > 3 && points.front() == points.back();
@@ -99,8 +104,30 @@ Path path_of(const Model& model, const PolygonSet& polygons, const Lining& linin
                                  : whole);
 }
 
+/// Those of all linings; empty for layers on others. Where one goes on as another one, both end in
+/// the section that halves the angle between them. within: of the smaller thickness.
+std::vector<Path> paths_on_walls(const Model& model, const PolygonSet& polygons, double within) {
+  std::vector<Path> paths(model.linings.size());
+  for (std::size_t q = 0; q < paths.size(); ++q)
+    if (model.linings[q].on.empty()) paths[q] = path_on_wall(model, polygons, model.linings[q]);
+  for (std::size_t p = 0; p < paths.size(); ++p) {
+    for (std::size_t q = 0; q < paths.size(); ++q) {
+      Path &one = paths[p], &next = paths[q];
+      if (p == q || one.closed || next.closed || one.points.empty() || next.points.empty())
+        continue;
+      const double thickness =
+          std::min(model.linings[p].drawn_thickness(), model.linings[q].drawn_thickness());
+      if (norm(one.points.back() - next.points.front()) > within * thickness) continue;
+      const Vec2 in = one.points.back() - one.points.end()[-2],
+                 out = next.points[1] - next.points[0];
+      one.ends.last = next.ends.first = perp(unit(in) + unit(out));
+    }
+  }
+  return paths;
+}
+
 Path divided(const Path& path, double size) {
-  Path fine{{}, path.closed};
+  Path fine{{}, path.closed, path.ends};
   for (std::size_t k = 0; k < path.pieces(); ++k) {
     const Vec2 from = path.points[k], whole = path.after(k) - from;
     const auto parts = static_cast<int>(std::max(1.0, std::ceil(norm(whole) / size - 1e-6)));
@@ -176,7 +203,8 @@ BlockPolygon strip_of(const Lining& lining, const Path& path, std::vector<Vec2> 
 
 }  // namespace
 
-std::vector<Vec2> inner_side(std::span<const Vec2> outer, bool closed, double thickness) {
+std::vector<Vec2> inner_side(std::span<const Vec2> outer, bool closed, double thickness,
+                             const EndSections& ends) {
   const std::size_t n = outer.size();
   std::vector<Vec2> inner;
   for (std::size_t k = 0; k < n; ++k) {
@@ -184,8 +212,9 @@ std::vector<Vec2> inner_side(std::span<const Vec2> outer, bool closed, double th
     const Vec2 p = outer[k];
     const Vec2 in = first ? Vec2{} : perp(unit(p - outer[(k + n - 1) % n])),
                out = last ? Vec2{} : perp(unit(outer[(k + 1) % n] - p));
-    const Vec2 mean = first ? out : last ? in : (in + out) / (1.0 + dot(in, out));
-    inner.push_back(p + thickness * mean);
+    const Vec2 given = first ? ends.first : last ? ends.last : Vec2{};
+    const Vec2 section = given == Vec2{} ? in + out : given;
+    inner.push_back(p + thickness / dot(section, first ? out : in) * section);
   }
   return inner;
 }
@@ -203,14 +232,16 @@ StripSections sections_of(const BlockPolygon& lining) {
 }
 
 Faults add_linings(const Model& model, PolygonSet& polygons) {
+  constexpr double rounding = 1e-3;  // of the thickness
+  const std::vector<Path> walls = paths_on_walls(model, polygons, rounding);
   Faults faults;
   for (std::size_t q = 0; q < model.linings.size(); ++q) {
     const Lining& lining = model.linings[q];
-    Path path = path_of(model, polygons, lining);
+    Path path = lining.on.empty() ? walls[q] : path_on(model, polygons, lining.on);
     if (path.points.empty()) continue;
     const double thickness = lining.drawn_thickness();
     path = divided(path, lining.size.value_or(std::max(2.0 * thickness, path.length() / 32.0)));
-    std::vector<Vec2> inner = inner_side(path.points, path.closed, thickness);
+    std::vector<Vec2> inner = inner_side(path.points, path.closed, thickness, path.ends);
     if (!is_whole(path, inner)) {
       faults.push_back({lining.where, "is too thick for its corners",
                         "give longer pieces (size), less thickness, or a line whose corners are "
@@ -219,7 +250,6 @@ Faults add_linings(const Model& model, PolygonSet& polygons) {
     }
     BlockPolygon strip = strip_of(lining, path, std::move(inner));
     strip.lining = static_cast<Index>(q);
-    constexpr double rounding = 1e-3;  // of the thickness
     if (!polygons.blocks.empty() && !touches(strip, polygons.blocks, rounding * thickness)) {
       faults.push_back(
           {lining.where, "touches no block", "move it to a wall (edda cut draws the blocks)"});

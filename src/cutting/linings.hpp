@@ -15,9 +15,15 @@ namespace edda {
 /// Adds them as the last blocks of the set, in the order of Model::linings.
 Faults add_linings(const Model& model, PolygonSet& polygons);
 
+/// The directions of the end sections of a strip; 0: at right angles to it.
+struct EndSections {
+  Vec2 first, last;
+};
+
 /// The points at the distance `thickness` (m) on the left of a line, mitred at its corners. closed:
 /// it goes on from its last point to its first.
-std::vector<Vec2> inner_side(std::span<const Vec2> outer, bool closed, double thickness);
+std::vector<Vec2> inner_side(std::span<const Vec2> outer, bool closed, double thickness,
+                             const EndSections& ends = {});
 
 /// The sections of the polygon of a lining. Corners are numbered ring after ring.
 struct StripSections {

@@ -60,6 +60,10 @@ std::optional<std::size_t> stage_that(const Model& model, std::vector<std::strin
 
 }  // namespace
 
+std::optional<std::size_t> installed_in(const Model& model, const std::string& name) {
+  return stage_that(model, &Stage::install, name);
+}
+
 std::optional<std::size_t> placed_in(const Model& model, const std::string& name) {
   return stage_that(model, &Stage::fill, name);
 }
@@ -90,8 +94,7 @@ bool flow_takes_time(const Model& model) {
 }
 
 bool installed_at_first(const Model& model, const std::string& name) {
-  return std::none_of(model.stages.begin(), model.stages.end(),
-                      [&](const Stage& stage) { return holds(stage.install, name); });
+  return !installed_in(model, name);
 }
 
 std::vector<std::uint8_t> linings_before(const Model& model, std::size_t stage) {

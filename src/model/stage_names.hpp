@@ -40,6 +40,9 @@ bool installed_at_first(const Model& model, const std::string& name);
 /// Whether a stage gives the water in joints a time to flow.
 bool flow_takes_time(const Model& model);
 
+/// The first stage that installs it.
+std::optional<std::size_t> installed_in(const Model& model, const std::string& name);
+
 /// Rows in Model::fills.
 std::vector<Index> fills_called(const Model& model, const std::vector<std::string>& names);
 /// The stage that places the fill of this name, and that which excavates it or an opening.

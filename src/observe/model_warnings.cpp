@@ -214,7 +214,8 @@ void warn_of_few(const Simulation& sim, std::vector<std::string>& warnings) {
                    sorted.end());
   const double others =
       std::min(sorted[place], step_that_adds(sim.scene->blocks, steps, most_added * all));
-  const double smallest = *std::min_element(sorted.begin(), sorted.end());
+  steps = steps_of_blocks(stiffness_inputs(sim), others, &known);  // estimates so far
+  const double smallest = *std::min_element(steps.begin(), steps.end());
   if (!(others > worth * smallest)) return;
   std::size_t count = 0;
   double added = 0.0;

@@ -13,15 +13,6 @@ namespace {
 
 constexpr double radius = 1.8;  // pt
 
-/// Where a point is drawn. A point on a surface that has settled since it was given, before
-/// displacements were reset, lies up to `near` outside.
-std::optional<Vec2> followed(const Follower& follow, Vec2 start, double near) {
-  for (const Vec2 by : {Vec2{}, Vec2{0, -near}, Vec2{0, near}, Vec2{-near, 0}, Vec2{near, 0}}) {
-    if (const auto now = follow(start + by)) return now;
-  }
-  return {};
-}
-
 /// Both ends of a line as drawn; nothing where an end was excavated with its block.
 std::optional<std::array<Vec2, 2>> ends_of(const Follower& follow, const PlotLine& line) {
   const Vec2 way = line.start[1] - line.start[0];
@@ -96,7 +87,7 @@ void draw_marks(Canvas& canvas, const PlotScene& s, const PlotOptions& options) 
     lines.emplace_back(line.name, *seen);
   }
   for (const PlotMonitor& m : options.monitors) {
-    const auto now = followed(follow, m.start, 2e-4 * s.view.world.width());
+    const auto now = follow.on_surface(m.start);
     if (!now) continue;
     const Vec2 p = s.view.at(*now);
     const Box& f = s.view.frame;

@@ -32,7 +32,7 @@ void shift(Grid& grid, Vec2 by) {
 bool move_with(Snapshot& shot, Vec2 start) {
   const std::vector<Vec2> now = drawn_points(shot.blocks, 1.0);
   const std::optional<Vec2> place =
-      Follower(shot.blocks, drawn_points(shot.blocks, 0.0), now)(start);
+      Follower(shot.blocks, drawn_points(shot.blocks, 0.0), now).on_surface(start);
   if (!place) return false;
   const Vec2 moved = *place - start;
   shift(shot.blocks, moved);

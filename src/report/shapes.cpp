@@ -151,6 +151,9 @@ Follower::Follower(const Grid& grid, std::vector<Vec2> from, const std::vector<V
     const double slack = 1e-6 * (b.high.x - b.low.x + b.high.y - b.low.y);
     bounds_.push_back({b.low - Vec2{slack, slack}, b.high + Vec2{slack, slack}});
   }
+  const auto [least, most] =
+      std::minmax_element(from_.begin(), from_.end(), [](Vec2 a, Vec2 b) { return a.x < b.x; });
+  if (least != from_.end()) width_ = most->x - least->x;
 }
 
 std::optional<Vec2> Follower::within(std::size_t cell, Vec2 start) const {
@@ -182,6 +185,14 @@ std::optional<Vec2> Follower::operator()(Vec2 start) const {
     if (!with_fixed) with_fixed = now;
   }
   return with_fixed;
+}
+
+std::optional<Vec2> Follower::on_surface(Vec2 start) const {
+  const double near = 2e-4 * width_;
+  for (const Vec2 by : {Vec2{}, Vec2{0, -near}, Vec2{0, near}, Vec2{-near, 0}, Vec2{near, 0}}) {
+    if (const auto now = (*this)(start + by)) return *now - by;
+  }
+  return {};
 }
 
 std::vector<std::size_t> thinned(const std::vector<Vec2>& centres, double raster) {

@@ -83,6 +83,9 @@ class Follower {
   /// The present position of `start`; nothing where it lies in no cell. On a border it belongs to a
   /// free block before a fixed one, then to the block of lowest number, as in the program.
   std::optional<Vec2> operator()(Vec2 start) const;
+  /// The same of a point on a surface that has moved since it was given, before displacements were
+  /// reset: it lies a little outside.
+  std::optional<Vec2> on_surface(Vec2 start) const;
 
  private:
   struct Bounds {
@@ -93,6 +96,7 @@ class Follower {
   std::vector<Vec2> from_;
   const std::vector<Vec2>& to_;
   std::vector<Bounds> bounds_;  ///< of each cell, before
+  double width_ = 0.0;          ///< of the whole, before
 };
 
 /// At most one shape per square of side `raster` m: that whose centre is nearest to the square's.

@@ -14,6 +14,7 @@
 #include "model/read_model.hpp"
 #include "model/stage_names.hpp"
 #include "observe/initial_stress_report.hpp"
+#include "observe/linings_in_rock.hpp"
 #include "observe/model_warnings.hpp"
 #include "observe/resting.hpp"
 #include "observe/unused_names.hpp"
@@ -147,6 +148,7 @@ Result<PreparedRun> prepared(Model model, BlockOrder order, ReadFor what_for) {
   for (std::string& warning : implausible(run.sim.scene->model))
     run.warnings.push_back(std::move(warning));
   for (std::string& warning : unused_names(run.sim)) run.warnings.push_back(std::move(warning));
+  for (std::string& warning : linings_in_rock(run.sim)) run.warnings.push_back(std::move(warning));
   warn_of_wet_rock(run.sim, run.warnings);
   for (std::string& warning : model_warnings(run.sim)) run.warnings.push_back(std::move(warning));
   for (std::string& warning : on_borders) run.warnings.push_back(std::move(warning));

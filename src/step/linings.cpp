@@ -24,7 +24,17 @@ std::vector<Vec2> nodes_on_walls(const Simulation& sim, std::size_t i) {
   }
   const std::vector<Vec2> by = completed(moved, s.closed);
   for (std::size_t k = 0; k < outer.size(); ++k) outer[k] += by[k];
-  const std::vector<Vec2> inner = inner_side(outer, s.closed, thickness);
+  // End sections turn with the pieces that they end.
+  const auto turned = [&](std::uint32_t end, std::uint32_t before) {
+    const std::uint32_t v = b.vertex_begin[i];
+    const Vec2 as_drawn = unit(b.vertex(v + s.outer(end)) - b.vertex(v + s.outer(before))),
+               now = unit(outer[end] - outer[before]),
+               section = b.vertex(v + s.inner(end)) - b.vertex(v + s.outer(end));
+    return dot(section, as_drawn) * now + cross(as_drawn, section) * perp(now);
+  };
+  const EndSections ends =
+      s.closed ? EndSections{} : EndSections{turned(0, 1), turned(s.count - 1, s.count - 2)};
+  const std::vector<Vec2> inner = inner_side(outer, s.closed, thickness, ends);
   std::vector<Vec2> node(2 * outer.size());
   for (std::uint32_t k = 0; k < s.count; ++k) {
     node[s.outer(k)] = outer[k];

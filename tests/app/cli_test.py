@@ -344,6 +344,12 @@ material = "rock"
         (self.dir / "ramp.toml").write_text("mine")
         self.expect(2, "example", "ramp")
         self.assertEqual((self.dir / "ramp.toml").read_text(), "mine")
+        # Two models may have one table, but not another one of its name.
+        (self.dir / "quake-cavern.toml").unlink()
+        (self.dir / "quake-cavern-record.csv").write_text("mine")
+        self.expect(2, "example", "quake-cavern")
+        self.assertFalse((self.dir / "quake-cavern.toml").exists())
+        self.assertEqual((self.dir / "quake-cavern-record.csv").read_text(), "mine")
 
     def test_ramp_slides_as_it_should(self):
         import math

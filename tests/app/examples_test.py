@@ -210,6 +210,52 @@ class Examples(Program):
         self.assertGreater(max(rain), 0.3 * 90 * 3e-3 / 3600)
         self.assertLess(max(rain), 90 * 3e-3 / 3600 * (1 + 1e-6))
 
+    def thrusts(self, folder, time):
+        """Thrusts of each lining (N), and the largest utilisation, at the frame nearest to a time."""
+        rows = self.rows(folder / "linings.csv")
+        frame = min({row["time"] for row in rows}, key=lambda t: abs(float(t) - time))
+        found = {}
+        for row in rows:
+            if row["time"] == frame:
+                found.setdefault(row["lining"], []).append(float(row["thrust"]))
+        return found, max(float(row["utilisation"]) for row in rows if row["time"] == frame)
+
+    def test_horseshoe_closes_its_ring(self):
+        _, folder = self.ran("horseshoe-tunnel")
+        stages = self.rows(folder / "stages.csv")
+        self.assertTrue(all(stage["reached"] == "1" and stage["loose"] == "0" for stage in stages))
+        closed = [0.5 * (float(s["span.convergence"]) + float(s["height.convergence"])) for s in stages]
+        linings, used = self.thrusts(folder, float(stages[-1]["end"]))
+        mean = {name: sum(n) / len(n) for name, n in linings.items()}
+        # All have thrust, less than if they followed the walls all round: 10 m wide, E/(1 - nu^2) t.
+        self.assertTrue(all(min(n) > 0 for n in linings.values()))
+        young, hard, concrete = (e / 0.96 * t for e, t in ((5e9, 0.25), (15e9, 0.25), (25e9, 0.4)))
+        crown = (young * (closed[2] - closed[1]) + hard * (closed[-1] - closed[2])) / 10
+        self.assertTrue(0.4 * crown < mean["crown"] < 0.8 * crown)
+        invert = concrete * (closed[-1] - closed[-2]) / 10
+        self.assertTrue(0.6 * invert < mean["invert"] < invert)
+        self.assertTrue(0.2 < used < 0.7)
+        last = {row["lining"]: row["material"] for row in self.rows(folder / "linings.csv")}
+        self.assertEqual(last["left wall"], "hard shotcrete")
+
+    def test_lined_cavern_stands_an_earthquake(self):
+        # Blocks twice as large, and the first waves.
+        summary, folder = self.ran("lined-cavern-quake", "--set", "joint_set.steep.spacing=5", "--set",
+                                   "joint_set.flat.spacing=5.6", "--set", "stage.earthquake.duration=2.8")
+        self.assertEqual(summary["status"], "completed")
+        self.assertLess(abs(summary["energy"]["drift"]), 1e-4)
+        stages = self.rows(folder / "stages.csv")
+        self.assertTrue(all(stage["loose"] == "0" for stage in stages))
+        before, _ = self.thrusts(folder, float(stages[2]["end"]))
+        mean = sum(before["shotcrete"]) / len(before["shotcrete"])
+        closed = float(stages[2]["span.convergence"]) - float(stages[1]["span.convergence"])
+        self.assertAlmostEqual(mean / (15e9 / 0.96 * 0.2 * closed / 12), 1, delta=0.3)
+        after, used = self.thrusts(folder, float(stages[3]["end"]))
+        self.assertTrue(max(after["shotcrete"]) > 1.1 * max(before["shotcrete"]) and used < 0.5)
+        done = self.edda("spectra", "lined-cavern-quake", "--between", "base,crown", "--periods", "0.1,2,30", "-o", "spectra")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertGreater(max(float(r["amplification"]) for r in self.rows(self.dir / "spectra/amplification.csv")), 1.3)
+
     def test_disc_splits(self):
         # Grains of 4.5 in place of 2.7 mm.
         _, folder = self.ran("brazilian-disc", "--set", "voronoi.size=4.5 mm")

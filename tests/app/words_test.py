@@ -105,6 +105,22 @@ class Words(Program):
         static = self.write("static.toml", stage + (BLOCK % 1e10).replace("duration = 0.5\n", "") + pebble)
         self.expect(0, "check", static, "--set", "solver.mass_scaling=0.1")
 
+    def test_mass_scaling_is_advised_where_it_raises_the_step(self):
+        def advice(model, *args):
+            found = json.loads(self.expect(0, "check", model, "--json", *args).stdout)
+            told = [re.search(r"to 1/([\d.]+) of what the others need: solver.mass_scaling = (\S+) raises", w)
+                    for w in found["warnings"]]
+            return found["time_step"], next(filter(None, told), None)
+        row = "".join(f"[[block]]\npolygon = [[{x}, 1], [{x + 1}, 1], [{x + 1}, 2], [{x}, 2]]\n" for x in range(-10, 14))
+        pebble = "[[block]]\npolygon = [[0.4, 2], [0.45, 2], [0.45, 2.05], [0.4, 2.05]]\n"
+        model = self.write("row.toml", BLOCK % 1e10 + row + pebble)
+        step, told = advice(model)
+        longer, _ = advice(model, "--set", f"solver.mass_scaling={told.group(2)}")
+        self.assertAlmostEqual(longer / step / float(told.group(1)), 1, delta=0.1)
+        # Slivers of the cut whose inertia is raised in any case.
+        self.expect(0, "example", "lined-cavern-quake")
+        self.assertIsNone(advice("lined-cavern-quake.toml", "--set", "joint_set.steep.origin=[0.5, 0]")[1])
+
     def test_points_in_excavated_rock_are_reported(self):
         model = self.write("lost.toml", TUNNEL % (1.4, 1.4, ""))
         warnings = self.check(model)["warnings"]

@@ -81,6 +81,23 @@ TEST(Linings, OnTheLeftOfALine) {
   EXPECT_NEAR(moments(m.last().rings).area, 0.2 * (1.8 + 4.0), 1e-9);
 }
 
+/// Where one goes on as another they meet in one plane, whatever their order and thickness.
+TEST(Linings, ThatMeetDoNotOverlap) {
+  const std::string wall = "[[lining]]\nname = 'w'\nalong = [[2, -1], [2, 1]]\nthickness = 0.2\n",
+                    roof = "[[lining]]\nname = 'r'\nalong = [[2, 1], [-2, 1]]\nthickness = 0.3\n",
+                    layer = "[[lining]]\non = 'r'\nthickness = 0.1\n";
+  for (const bool wall_first : {true, false}) {
+    const Made m = made((wall_first ? wall + roof : roof + wall) + layer);
+    ASSERT_TRUE(m.faults.empty());
+    const std::vector<BlockPolygon>& b = m.polygons.blocks;
+    const double first = moments(b[b.size() - 3].rings).area,
+                 second = moments(b[b.size() - 2].rings).area;
+    EXPECT_NEAR(wall_first ? first : second, 0.2 * (2.0 - 0.1), 1e-12);
+    EXPECT_NEAR(wall_first ? second : first, 0.3 * (4.0 - 0.15), 1e-12);
+    EXPECT_NEAR(moments(m.last().rings).area, 0.1 * (3.7 - 0.05), 1e-12);
+  }
+}
+
 TEST(Linings, OneFaultEach) {
   const auto fault = [](const std::string& toml) {
     const Faults faults = made(toml).faults;

@@ -97,6 +97,14 @@ TEST(Shapes, MaterialPointsAreFollowed) {
   EXPECT_NEAR(now->x, -0.25 + 1.5, 1e-12);
   EXPECT_NEAR(now->y, 0.75, 1e-12);
   EXPECT_FALSE(follow({9.0, 9.0}));
+  // Outside by as much as its surface had settled before.
+  const Vec2 above{-0.25, 1.0 + 1e-4};
+  EXPECT_FALSE(follow(above));
+  const auto surface = follow.on_surface(above);
+  ASSERT_TRUE(surface);
+  EXPECT_NEAR(surface->x, -0.25 + 1.5, 1e-12);
+  EXPECT_NEAR(surface->y, above.y, 1e-12);
+  EXPECT_FALSE(follow.on_surface({9.0, 9.0}));
 }
 
 TEST(Shapes, OnePerSquareIsLeftWhenThinned) {

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "blocks/build_blocks.hpp"
 #include "run/prepared.hpp"
 #include "step/changes.hpp"
 
@@ -302,6 +303,57 @@ install = ['slab']
 )");
   EXPECT_EQ(r.outcome.status, Status::equilibrium) << r.outcome.message;
   EXPECT_EQ(r.outcome.loose, 0u) << r.outcome.message;
+}
+
+/// Two that meet in a corner still do when they come on walls that have moved.
+TEST(Linings, MeetInACornerWhereItIsByThen) {
+  std::string text = lined_hole(
+      "[[stage]]\nduration = 0.0099\n[[stage]]\nduration = 1e-4\ninstall = ['shell', 'second']\n");
+  const auto replace = [&](const std::string& from, const std::string& to) {
+    text.replace(text.find(from), from.size(), to);
+  };
+  replace("opening = 'hole'", "along = [[6, 4], [6, 6]]");
+  replace("on = 'shell'", "along = [[6, 6], [4, 6]]");
+  const Ran r = ran(text);
+  const Scene& scene = *r.ready.sim.scene;
+  std::vector<Vec2> corner;
+  for (std::size_t i = 0; i < scene.blocks.size(); ++i) {
+    if (!scene.blocks.is_lining(i)) continue;
+    const StripSections s = sections_of(scene.blocks, i);
+    const bool wall = scene.blocks.lining[i] == 0;
+    const Id v = scene.blocks.vertex_begin[i] + s.inner(wall ? s.count - 1 : 0);
+    corner.push_back({r.ready.sim.motion.pose.x[v], r.ready.sim.motion.pose.y[v]});
+  }
+  ASSERT_EQ(corner.size(), 2u);
+  EXPECT_NEAR(corner[1].x - corner[0].x, 0.1, 1e-3);
+  EXPECT_NEAR(corner[1].y - corner[0].y, 0.1, 1e-3);
+}
+
+/// A foot that leans into the floor, once the rock above that is gone, and two that cross.
+TEST(Linings, DrawnIntoWhatIsThereAreNamed) {
+  const auto warned = [](const std::string& shell, const std::string& second) {
+    std::string text = lined_hole(
+        "[[stage]]\nduration = 0.005\nexcavate = ['hole']\n"
+        "[[stage]]\nduration = 0.005\ninstall = ['shell', 'second']\n");
+    const auto replace = [&](const std::string& from, const std::string& to) {
+      text.replace(text.find(from), from.size(), to);
+    };
+    replace("polygon = [[4, 4], [6, 4], [6, 6], [4, 6]]",
+            "polygon = [[4, 4], [6, 4], [5.8, 6], [4, 6]]");
+    replace("opening = 'hole'", shell);
+    replace("on = 'shell'", second);
+    std::string all;
+    for (const std::string& warning : prepared(text).warnings) all += warning + "\n";
+    return all;
+  };
+  const std::string left = "along = [[4, 6], [4, 4]]";
+  EXPECT_EQ(warned(left, "on = 'shell'").find("is drawn"), std::string::npos);
+  EXPECT_NE(
+      warned("along = [[6, 4], [5.8, 6]]", left).find("lining.shell is drawn 0.02 m into block"),
+      std::string::npos);
+  EXPECT_NE(warned(left, "along = [[5.5, 6], [4.05, 6]]\nsize = 2")
+                .find("lining.second is drawn 0.05 m into lining.shell"),
+            std::string::npos);
 }
 
 }  // namespace
