@@ -16,6 +16,11 @@ double level_at(const WetEdge& e, double s) {
   return e.level_from + (e.level_to - e.level_from) / (e.to - e.from) * (s - e.from);
 }
 
+template <class OfFace>
+auto key_of(const OfFace& row) {
+  return std::pair(row.edge, row.facing);
+}
+
 class Flow {
  public:
   Flow(JointWater& joints, const FlowScene& scene, const LoadsNow& now)
@@ -29,17 +34,21 @@ class Flow {
       water_[n].pressure = std::max(water_[n].pressure, joints.pressure[v]);
       water_[n].filled = std::max(water_[n].filled, joints.filled[v]);
     }
+    give_conditions();
+    for (std::size_t n = net_.with_corners; n < net_.nodes.size(); ++n) {
+      if (given_[n].kind == Kind::pressure) water_[n] = {given_[n].pressure, 1.0};
+    }
   }
 
   std::vector<WaterContent> contents() const {
     std::vector<WaterContent> found;
     for (const FlowPipe& pipe : net_.pipes) {
-      WaterContent c = key_of_pipe(pipe, found.empty() ? nullptr : &found.back());
-      c.from = pipe.volume.a * part_of(pipe.from);
-      c.to = pipe.volume.b * part_of(pipe.to);
-      found.push_back(c);
+      found.push_back({s_.faces.edge[pipe.face], s_.faces.facing[pipe.face], pipe.part_from,
+                       pipe.part_to, pipe.volume.a * part_of(pipe.from),
+                       pipe.volume.b * part_of(pipe.to)});
     }
-    std::sort(found.begin(), found.end(), by_key);
+    std::stable_sort(found.begin(), found.end(),
+                     [](const auto& c, const auto& d) { return key_of(c) < key_of(d); });
     return found;
   }
 
@@ -68,7 +77,6 @@ class Flow {
   }
 
   void solve(const Storage* storage = nullptr) {
-    give_conditions();
     if (!solve_seepage(net_, given_, gamma_, water_, storage)) ++joints_.not_found;
     joints_.heads.assign(s_.model.waters.size(), 0);
     for (const HeadNode& head : net_.heads) ++joints_.heads[static_cast<std::size_t>(head.water)];
@@ -141,31 +149,36 @@ class Flow {
   double part_of(Id n) const {
     return water_[n].filled + water_[n].pressure / s_.model.flow->bulk_modulus;
   }
-  static bool by_key(const WaterContent& c, const WaterContent& d) {
-    return std::tuple(c.edge, c.facing, c.part) < std::tuple(d.edge, d.facing, d.part);
-  }
-  /// The face of a pipe and its place there, by those of the pipe before it.
-  WaterContent key_of_pipe(const FlowPipe& pipe, const WaterContent* before) const {
-    WaterContent c{s_.faces.edge[pipe.face], s_.faces.facing[pipe.face], 0, 0.0, 0.0};
-    if (before != nullptr && before->edge == c.edge && before->facing == c.facing)
-      c.part = before->part + 1;
-    return c;
-  }
-
   /// What the nodes contained when the time began. A joint that was none then has what it has.
   std::vector<double> contents_of_nodes() const {
     std::vector<double> content(net_.nodes.size(), 0.0);
-    const std::vector<WaterContent>& then = joints_.contents;
-    WaterContent c{};
-    for (std::size_t q = 0; q < net_.pipes.size(); ++q) {
-      const FlowPipe& pipe = net_.pipes[q];
-      c = key_of_pipe(pipe, q == 0 ? nullptr : &c);
-      const auto at = std::lower_bound(then.begin(), then.end(), c, by_key);
-      const bool known = at != then.end() && !by_key(c, *at);
-      content[pipe.from] += known ? at->from : pipe.volume.a * part_of(pipe.from);
-      content[pipe.to] += known ? at->to : pipe.volume.b * part_of(pipe.to);
+    for (const FlowPipe& pipe : net_.pipes) {
+      const std::pair key(s_.faces.edge[pipe.face], s_.faces.facing[pipe.face]);
+      const auto before = [](const WaterContent& c, const auto& k) { return key_of(c) < k; };
+      auto at = std::lower_bound(joints_.contents.begin(), joints_.contents.end(), key, before);
+      const bool known = at != joints_.contents.end() && key_of(*at) == key;
+      for (; at != joints_.contents.end() && key_of(*at) == key; ++at) {
+        content[pipe.from] += share_of(*at, pipe, pipe.part_to, pipe.part_from);
+        content[pipe.to] += share_of(*at, pipe, pipe.part_from, pipe.part_to);
+      }
+      if (known) continue;
+      content[pipe.from] += pipe.volume.a * part_of(pipe.from);
+      content[pipe.to] += pipe.volume.b * part_of(pipe.to);
     }
     return content;
+  }
+  /// Of what a pipe contained, as a density linear along it, the part in another pipe of the face,
+  /// by weights that are 0 at `none` and 1 at `one` of it.
+  static double share_of(const WaterContent& c, const FlowPipe& pipe, double none, double one) {
+    const double from = std::max(c.part_from, pipe.part_from),
+                 to = std::min(c.part_to, pipe.part_to), length = c.part_to - c.part_from;
+    if (!(to > from)) return 0.0;
+    const double first = (4.0 * c.from - 2.0 * c.to) / length,
+                 last = (4.0 * c.to - 2.0 * c.from) / length;
+    const auto at = [&](double t) {
+      return (first + (last - first) * (t - c.part_from) / length) * (t - none) / (one - none);
+    };
+    return (to - from) / 6.0 * (at(from) + 4.0 * at(0.5 * (from + to)) + at(to));  // Simpson
   }
 
   /// The highest head of lines in the rock and of what lies open beside a node.
@@ -247,10 +260,6 @@ class Flow {
   std::vector<NodeWater> water_;
 };
 
-auto key_of(const FlowRow& row) {
-  return std::pair(row.edge, row.facing);
-}
-
 }  // namespace
 
 void flow_through(JointWater& joints, const FlowScene& scene, const LoadsNow& now, Loads& loads) {
@@ -263,8 +272,12 @@ void flow_through(JointWater& joints, const FlowScene& scene, const LoadsNow& no
   put_water(scene.blocks, flow.wet_edges(), loads);
 }
 
-void take_contents(JointWater& joints, const FlowScene& scene) {
-  joints.contents = Flow(joints, scene, {}).contents();
+void take_contents(JointWater& joints, const FlowScene& scene, const LoadsNow& now) {
+  joints.contents = Flow(joints, scene, now).contents();
+}
+
+void put_flow(JointWater& joints, const FlowScene& scene, const LoadsNow& now, Loads& loads) {
+  put_water(scene.blocks, Flow(joints, scene, now).wet_edges(), loads);
 }
 
 std::vector<BlockForce> flow_in_step(JointWater& joints, const FlowScene& scene,

@@ -18,11 +18,11 @@ struct FlowRow {
   double pressure_a, pressure_b;  ///< Pa, at its ends
 };
 
-/// Water in a pipe of a face when a time began to pass: V (s + p/K) of its two ends, m2.
+/// Water in a pipe of a face when a time began to pass.
 struct WaterContent {
-  Id edge, facing;  ///< of the face
-  Id part;          ///< of its pipes, from end a on
-  double from, to;
+  Id edge, facing;            ///< of the face
+  double part_from, part_to;  ///< of the pipe, as FlowPipe
+  double from, to;            ///< V (s + p/K) of its two nodes, m2
 };
 
 struct JointWater {
@@ -32,7 +32,7 @@ struct JointWater {
   std::vector<double> inflow;   ///< [rows of Model::waters, and the open air] m2/s into the joints
   std::uint64_t not_found = 0;  ///< times that the free surface has not been found
   std::vector<std::size_t> heads;      ///< [rows of Model::waters] nodes on their lines at present
-  std::vector<WaterContent> contents;  ///< by face and part
+  std::vector<WaterContent> contents;  ///< by face
   std::vector<WetEdge> before;  ///< water in joints before what changes gradually began to change
 };
 
@@ -40,7 +40,10 @@ struct JointWater {
 /// (Loads::wet). now: waters_at().
 void flow_through(JointWater& joints, const FlowScene& scene, const LoadsNow& now, Loads& loads);
 /// Takes what the joints contain as what they contained when a time began to pass.
-void take_contents(JointWater& joints, const FlowScene& scene);
+void take_contents(JointWater& joints, const FlowScene& scene, const LoadsNow& now);
+
+/// Puts the water in joints on their walls as these are, with the pressures that it has.
+void put_flow(JointWater& joints, const FlowScene& scene, const LoadsNow& now, Loads& loads);
 
 /// Forces on a block.
 struct BlockForce {

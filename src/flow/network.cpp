@@ -122,8 +122,9 @@ class Builder {
  public:
   Builder(const FlowScene& scene, const FlowGround& ground, bool with_boundaries = true)
       : s_(scene), ground_(ground), corners_(scene.blocks.vertex_count()) {
-    rains_ = std::any_of(scene.model.waters.begin(), scene.model.waters.end(),
-                         [](const Water& water) { return water.rain.has_value(); });
+    for (std::size_t q = 0; q < scene.model.waters.size(); ++q) {
+      if (scene.model.waters[q].rain && scene.intervals.waters[q].acts()) rains_ = true;
+    }
     supported_.assign(scene.blocks.vertex_count(), 0);
     for (std::size_t q = 0; q < ground.along.size() && with_boundaries; ++q) {
       if (!scene.intervals.boundaries[q].acts()) continue;
@@ -273,6 +274,7 @@ class Builder {
     std::size_t count = 0;
     net_.node_of = corners_.number(count);
     net_.nodes.resize(count);
+    net_.with_corners = count;
     std::vector<double> corners(count, 0.0);
     for (Id v = 0; v < net_.node_of.size(); ++v) {
       const Id n = net_.node_of[v];
@@ -296,6 +298,11 @@ class Builder {
     const FaceEnds aperture{aperture_of(s_.model.joints[law], f.opening.a),
                             aperture_of(s_.model.joints[law], f.opening.b)};
     if (aperture.a == 0.0) return;
+    const JointLaw& joint = s_.model.joints[law];
+    const auto follows = [&](double h, double opening) {
+      return h == *joint.aperture + opening ? 1.0 : 0.0;
+    };
+    const FaceEnds free{follows(aperture.a, f.opening.a), follows(aperture.b, f.opening.b)};
     const Id from = net_.node_of[f.corner_a[0]], to = net_.node_of[f.corner_b[0]];
     double last = 0.0;
     Id last_node = from;
@@ -311,7 +318,8 @@ class Builder {
           length,
           conductance_of(there(last), there(until), length, s_.model.flow->viscosity),
           {length * (2.0 * there(last) + there(until)) / 6.0,
-           length * (there(last) + 2.0 * there(until)) / 6.0}};
+           length * (there(last) + 2.0 * there(until)) / 6.0},
+          {(1.0 - last) * free.a + last * free.b, (1.0 - until) * free.a + until * free.b}};
       cover(f, pipe);
       net_.pipes.push_back(pipe);
       last = until;
@@ -343,13 +351,49 @@ class Builder {
   }
 
   void add_open_parts() {
-    for (const Gap& gap : gaps_) {
+    for (std::size_t g = 0; g < gaps_.size(); ++g) {
+      const Gap& gap = gaps_[g];
       const Id from = net_.node_of[gap.from_corner], to = net_.node_of[gap.to_corner];
-      net_.open.push_back({gap.edge, gap.from, gap.to, gap.open ? no_id : from, gap.wet, from, to,
-                           gap.open && rains_ ? width_under_sky(gap) : 0.0});
+      OpenPart part{gap.edge, gap.from, gap.to, gap.open ? no_id : from, gap.wet, from, to, 0.0};
+      if (gap.open && rains_) {
+        part.sky = width_under_sky(gap);
+        choose_outcrops(g, part);
+      }
+      net_.open.push_back(part);
       if (!gap.open) continue;
       if (from != no_id) net_.outcrops.push_back({from, gap.edge, gap.from, gap.wet});
       if (to != no_id) net_.outcrops.push_back({to, gap.edge, gap.to, gap.wet});
+    }
+  }
+
+  /// Rain runs to the outcrops on both sides, but up no wall where it can run down.
+  void choose_outcrops(std::size_t g, OpenPart& part) const {
+    part.from_node = outcrop_beside(g, false);
+    part.to_node = outcrop_beside(g, true);
+    const double y = s_.pose.y[part.edge], rise = s_.pose.y[s_.blocks.next[part.edge]] - y;
+    const double top = std::max(y + part.from * rise, y + part.to * rise) + ground_.snap;
+    const auto is_low = [&](Id n) { return n != no_id && net_.nodes[n].place.y <= top; };
+    const bool from = is_low(part.from_node), to = is_low(part.to_node);
+    if (from && !to) part.to_node = no_id;
+    if (to && !from) part.from_node = no_id;
+  }
+
+  /// The next outcrop of a joint along the open edges of the block of gap g.
+  Id outcrop_beside(std::size_t g, bool onwards) const {
+    const std::size_t first = g;
+    for (;;) {
+      const Gap& gap = gaps_[g];
+      const Id node = net_.node_of[onwards ? gap.to_corner : gap.from_corner];
+      if (node != no_id && net_.nodes[node].conductance > 0.0) return node;
+      const Id edge = onwards ? s_.blocks.next[gap.edge] : gap.edge;
+      const auto is_beside = [&](const Gap& other) {
+        return onwards ? other.edge == edge && other.from == 0.0
+                       : s_.blocks.next[other.edge] == edge && other.to == 1.0;
+      };
+      const auto beside = std::find_if(gaps_.begin(), gaps_.end(), is_beside);
+      if (beside == gaps_.end() || !beside->open) return no_id;
+      g = static_cast<std::size_t>(beside - gaps_.begin());
+      if (g == first) return no_id;
     }
   }
 

@@ -43,6 +43,8 @@ struct FlowPipe {
   double length;              ///< m
   double conductance;         ///< m2/s per Pa
   FaceEnds volume;            ///< m2: the parts of its two nodes, by weights linear along it
+  FaceEnds follows;           ///< 1: the aperture at this end opens with the walls; 0: it is at the
+                              ///< residual or the largest one
 };
 
 /// A part of an edge that a joint with water covers, from the node `from_node` to the other one of
@@ -60,7 +62,7 @@ struct OpenPart {
   double from, to;
   Id void_node;           ///< of an enclosed void, which is one node; no_id: it lies open
   bool wet;               ///< open water may be there: it goes on from where water was drawn
-  Id from_node, to_node;  ///< at its ends; no_id: no joint is there
+  Id from_node, to_node;  ///< outcrops of joints before and behind it; no_id: the block has none
   double sky = 0.0;       ///< m: its width as seen from above, under the open sky
 };
 
@@ -78,8 +80,10 @@ struct HeadNode {
 };
 
 struct FlowNetwork {
-  std::vector<Id> node_of;  ///< [nv] node of each corner; no_id: no face ends there
-  std::vector<FlowNode> nodes;
+  std::vector<Id> node_of;      ///< [nv] node of each corner; no_id: no face ends there
+  std::vector<FlowNode> nodes;  ///< first those with corners, then those where lines of heads
+                                ///< cross a face between its ends
+  std::size_t with_corners = 0;
   std::vector<FlowPipe> pipes;
   std::vector<CoveredPart> covered;
   std::vector<OpenPart> open;  ///< but of edges along boundaries that act

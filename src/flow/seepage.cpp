@@ -129,10 +129,11 @@ class SeepageSolver {
     }
     for (Id n = 0; n < given_.size(); ++n) {
       if (given_[n].kind != Kind::inside && given_[n].kind != Kind::rain) continue;
-      if (connected[n] != 0) {
+      const bool joins = begin_[n + 1] > begin_[n] || (storage_ && storage_->volume[n] > 0.0);
+      if (connected[n] != 0 && joins) {
         inside_.push_back(n);
       } else {
-        water_[n] = {0.0, 0.0};
+        water_[n] = {0.0, given_[n].kind == Kind::rain ? 1.0 : 0.0};
       }
     }
   }
@@ -253,7 +254,8 @@ class SeepageSolver {
     for (std::size_t k = 0; k < inside_.size(); ++k) {
       const Balance b = balance_of(inside_[k]);
       wet[k] = is_wet(inside_[k], b.net) ? 1 : 0;
-      if (runs_off(inside_[k], b.net)) {
+      const double own = wet[k] != 0 ? b.by_pressure : b.by_filled;
+      if (runs_off(inside_[k], b.net) || own == 0.0) {
         full[k] = 1;
         add(k, k, 1.0);
         right[static_cast<Eigen::Index>(k)] = 0.0;

@@ -63,7 +63,8 @@ Trouble Driver::write_curve() {
 
 std::string Driver::ramp_at(int increment) const {
   const Ramp& ramp = *stage().ramp;
-  return fmt::format("{} = {:.6g}", ramp.what.vary, ramp_value(ramp, increment));
+  return fmt::format("{} = {:.6g}{}", ramp.what.vary, ramp_value(ramp, increment),
+                     ramp.varied == Varied::flow ? " s" : "");
 }
 
 std::string Driver::end_of_ramp(bool holds) const {

@@ -59,7 +59,8 @@ void list_flow(Archive& a, Simulation& s) {
   if constexpr (Archive::loads) water.contents.clear();
   list_member(a, "flow.contents.edge", water.contents, &WaterContent::edge);
   list_member(a, "flow.contents.facing", water.contents, &WaterContent::facing);
-  list_member(a, "flow.contents.part", water.contents, &WaterContent::part);
+  list_member(a, "flow.contents.part_from", water.contents, &WaterContent::part_from);
+  list_member(a, "flow.contents.part_to", water.contents, &WaterContent::part_to);
   list_member(a, "flow.contents.from", water.contents, &WaterContent::from);
   list_member(a, "flow.contents.to", water.contents, &WaterContent::to);
   auto kind = static_cast<std::uint64_t>(s.attached.loads.flow);

@@ -72,6 +72,16 @@ void change_strength(Simulation& sim, const Stage& stage, double factor) {
   }
 }
 
+/// Water has its own time to flow, at first none (but in a model as drawn); in a stage in time
+/// after such a one it stays as it is; else it has all the time it needs.
+void choose_flow(Simulation& sim, const Stage& stage) {
+  JointFlow& flow = sim.attached.loads.flow;
+  const bool timed = stage.ramp && stage.ramp->varied == Varied::flow;
+  const bool stays = !stage.to_equilibrium() && flow != JointFlow::steady;
+  flow = stays ? JointFlow::held : JointFlow::steady;
+  if (timed && sim.motion.state.steps > 0) begin_timed_flow(sim);
+}
+
 /// Whether rock has got an elasticity or a strength that is for linings alone.
 bool hardens_rock(const BlockSet& b, const Model& model, const PropertyChange& change,
                   const std::vector<Index>& before) {
@@ -163,10 +173,6 @@ std::optional<Fault> enter_stage(Simulation& sim, const StagePlan& given, bool f
   const Stage& stage = plan.stage;
   const bool glued = stage.joints == StageJoints::glued;
   stop_gradual_change(sim);
-  // What changes at first finds water that has had no time to flow, but in a model as drawn.
-  const bool timed = stage.ramp && stage.ramp->varied == Varied::flow;
-  sim.attached.loads.flow = JointFlow::steady;
-  if (timed && sim.motion.state.steps > 0) begin_timed_flow(sim);
   // Unglue before excavation, so that the walls are not supported by joints that are no longer
   // glued. Glue after all other changes, so that joints are glued in their state at that time.
   if (!glued) glue_joints(sim, false);
@@ -174,6 +180,9 @@ std::optional<Fault> enter_stage(Simulation& sim, const StagePlan& given, bool f
   // after excavation.
   excavate_openings(sim, plan);
   for (const PropertyChange& change : stage.change) change_properties(sim, change);
+  // Joints whose aperture has changed keep the pressure of their water; all else that changes now
+  // finds what they contain.
+  choose_flow(sim, stage);
   switch_over(sim, plan.off, plan.on);
   if (!plan.fills.empty()) {
     if (auto fault = place_fills(sim, plan.fills)) return fault;

@@ -86,8 +86,8 @@ void start_flow(Simulation& sim);
 void begin_flow(const Model& model, const BlockSet& blocks, Attached& attached);
 /// Water in joints follows their motion and its own levels at so many steps.
 inline constexpr std::uint64_t steps_between_flows = 50;
-/// Solves the flow of water through the joints as they are now, of a model with [flow] where that
-/// is steady.
+/// Solves the flow of water through the joints as they are now, of a model with [flow]. Where that
+/// is not steady, puts the water that there is on their walls.
 void update_flow(Simulation& sim);
 /// From now on the water in joints has the time of SlowLoading::flow that passes.
 void begin_timed_flow(Simulation& sim);

@@ -33,7 +33,12 @@ void start_flow(Simulation& sim) {
 
 void update_flow(Simulation& sim) {
   Loads& loads = sim.attached.loads;
-  if (!sim.scene->model.flow || loads.flow != JointFlow::steady) return;
+  if (!sim.scene->model.flow) return;
+  if (loads.flow != JointFlow::steady) {
+    put_flow(sim.attached.joint_water, flow_scene(sim),
+             waters_at(sim.scene->model, loads, sim.motion.state.time), loads);
+    return;
+  }
   if (!loads.gradual.at) sim.attached.joint_water.before.clear();
   flow_through(sim.attached.joint_water, flow_scene(sim),
                waters_at(sim.scene->model, loads, sim.motion.state.time), loads);
@@ -42,7 +47,8 @@ void update_flow(Simulation& sim) {
 void begin_timed_flow(Simulation& sim) {
   JointWater& water = sim.attached.joint_water;
   water.before.clear();
-  take_contents(water, flow_scene(sim));
+  take_contents(water, flow_scene(sim),
+                waters_at(sim.scene->model, sim.attached.loads, sim.motion.state.time));
   sim.attached.loads.flow = JointFlow::timed;
 }
 

@@ -122,6 +122,7 @@ bool move_blocks(Simulation& sim, double h_old, const LoadsNow& at_work) {
     }
     if (control.last_displacement > lost || halvings++ == most_halvings) return false;
     take_back();
+    flows = sim.attached.loads.flow == JointFlow::timed;
     control.cap = 0.5 * state.step;
     control.limit = std::min(control.limit, control.cap);
     fit_step_to(sim, control.target);
@@ -219,7 +220,9 @@ std::optional<Failure> leap(Simulation& sim, const LeapContacts& contacts) {
   update_relaxation(sim, at_work);
   clock.lap(seconds.integrate);
   search_if_due(sim);
-  if (sim.motion.state.steps % steps_between_flows == 0) update_flow(sim);
+  if (sim.motion.state.steps % steps_between_flows == 0 &&
+      sim.attached.loads.flow == JointFlow::steady)
+    update_flow(sim);
   adjust_step(sim);
   clock.lap(seconds.search);
   return inspect(sim);

@@ -19,7 +19,7 @@ FlowNetwork network_of(const std::vector<Vec2>& places,
   for (const Vec2 p : places) net.nodes.push_back({p, 0.0, 0.0});
   for (const auto& [from, to, conductance] : pipes) {
     const double length = norm(places[from] - places[to]);
-    net.pipes.push_back({0, from, to, 0.0, 1.0, length, conductance, {}});
+    net.pipes.push_back({0, from, to, 0.0, 1.0, length, conductance, {}, {}});
     net.nodes[from].conductance += conductance;
     net.nodes[to].conductance += conductance;
   }

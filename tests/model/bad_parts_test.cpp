@@ -131,6 +131,10 @@ TEST(BadModel, Flow) {
            {aperture, {flow + second + "rain = 0\n", 47, "water.1.rain", "out of range"}},
            {aperture,
             {second + "rain = '5 mm/h'\n", 44, "water.0.rain", "through joints: add [flow]"}},
+           {aperture,
+            {flow + second + "name = \"lake\"\nrain = 1e-6\n[fos]\nvary = \"water:lake\"\n" +
+                 "[[stage]]\nduration = 0.05\nramp = { flow = [0, 60], steps = 1 }\n",
+             50, "fos.vary", "trials hold the water"}},
            {aperture, {flow + "[fos]\nvary = \"flow\"\n", 47, "fos.vary", "has no factor"}},
        }) {
     expect_flow_fault(joint, bad);

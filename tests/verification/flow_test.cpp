@@ -131,7 +131,7 @@ TEST(Flow, DiffusionAlongAJoint) {
   for (Id n = 0; n <= pipes; ++n) net.nodes[n].place = {n * part, 0.0};
   for (Id n = 0; n < pipes; ++n) {
     const double conductance = conductance_of(h, h, part, viscosity);
-    net.pipes.push_back({0, n, n + 1, 0.0, 1.0, part, conductance, {}});
+    net.pipes.push_back({0, n, n + 1, 0.0, 1.0, part, conductance, {}, {}});
     for (const Id end : {n, n + 1}) {
       net.nodes[end].conductance += conductance;
       net.nodes[end].volume += 0.5 * part * h;
@@ -161,6 +161,16 @@ TEST(Flow, DiffusionAlongAJoint) {
   }
   middle.expect({95, "in the middle", "pressure", "Pa"}, 1e-2);
   end.expect({95, "at the closed end", "pressure", "Pa"}, 1e-2);
+}
+
+/// A time in which nothing changes changes nothing: a dam with drains, which cross its joint
+/// between two crossings.
+TEST(Flow, TimeAloneChangesNothing) {
+  const std::string drained =
+      dam("[[water]]\nname = 'drains'\nlevel = 4\nalong = [[4, 4], [4, -4]]\n");
+  const double steady = normal_force(settled(drained).sim);
+  const PreparedRun in_time = settled(drained + "[[stage]]\nramp = { flow = [0, 1], steps = 1 }\n");
+  EXPECT_NEAR(normal_force(in_time.sim) / steady, 1.0, 1e-6);
 }
 
 /// Columns of 0.5 m side by side on a joint that drains to the left, loaded by 10 kPa more. They
@@ -215,6 +225,27 @@ TEST(Flow, WaterThatIsShutIn) {
     if (x > 2.5 && x < 7.5) far.see(p, 5e3);
   }
   far.expect({97, "K = kn h", "pressure that the load causes", "Pa"}, 1e-3);
+}
+
+TEST(Flow, LinesThatComeAndGoMoveNoWater) {
+  // A line of the head that there is, across the joint between two crossings, is activated and
+  // deactivated before any time passes.
+  std::string text = columns("", "{ flow = [0, 1e-9], steps = 1 }");
+  text.replace(text.find("pressure = 10e3"), 15, "pressure = 1e-3");
+  text +=
+      "[[water]]\nname = 'line'\nlevel = 1.01\nalong = [[5.2, 0.5], [5.2, 1.5]]\n"
+      "[[stage]]\nactivate = ['line']\nramp = { flow = [0, 1e-9], steps = 1 }\n"
+      "[[stage]]\ndeactivate = ['line']\nramp = { flow = [0, 1e-9], steps = 1 }\n";
+  for (const auto& [x, p] : excess_pressures(settled(text).sim)) EXPECT_NEAR(p, 0.0, 0.1) << x;
+}
+
+TEST(Flow, AChangedApertureKeepsThePressure) {
+  std::string text = columns("", "{ flow = [0, 1e-9], steps = 1 }");
+  text.replace(text.find("pressure = 10e3"), 15, "pressure = 1e-3");
+  text +=
+      "change = [{ joints = 'base', to = 'grout', region = [[5, 0], [9, 0], [9, 2], [5, 2]] }]\n"
+      "[joints.grout]\nfriction_angle = 30\nkn = 1e12\naperture = 2e-5\n";
+  for (const auto& [x, p] : excess_pressures(settled(text).sim)) EXPECT_NEAR(p, 0.0, 0.1) << x;
 }
 
 TEST(Flow, TimeEnoughIsSteadyFlow) {

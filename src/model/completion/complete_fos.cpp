@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "model/completion/complete_tools.hpp"
+#include "model/stage_names.hpp"
 #include "model/table/nearest.hpp"
 
 namespace edda {
@@ -89,6 +90,11 @@ void complete_fos(const Value& root, Reading& reading) {
   if (const auto found = find_varied(fos.vary, place_of(node, "vary"), "fos.vary", reading)) {
     fos.varied = found->varied;
     fos.target = found->target;
+    if (found->varied == Varied::water && flow_takes_time(model))
+      add_fault(reading, place_of(node, "vary"), "fos.vary",
+                "trials hold the water in joints after a stage in which it takes its time, so that "
+                "no factor on a water has an effect there",
+                "vary the strength, or give the stages no ramp of flow");
     if (found->varied == Varied::flow)
       add_fault(reading, place_of(node, "vary"), "fos.vary",
                 "\"flow\" is the time in which water flows, which has no factor",

@@ -311,7 +311,7 @@ constexpr std::array ramp_keys{
     Key{"strength", at<&Ramp::what>, varied(D::plain), otherwise("none"), "Divisor of the strength of all joints, in place of strength_factor."},
     Key{"load:NAME", at<&Ramp::what>, varied(D::plain), otherwise("none"), "Multiplier of the load of that name (a quoted key); until its first ramp it has the multiplier with which that begins."},
     Key{"water:NAME", at<&Ramp::what>, varied(D::plain), otherwise("none"), "Multiplier of the pressure of that water."},
-    Key{"flow", at<&Ramp::what>, varied(D::time), otherwise("none"), "With [flow]: time in which the water flows, in increments; it is stored in the joints meanwhile, and what the stage changes at its start meets water that has had no time to flow."},
+    Key{"flow", at<&Ramp::what>, varied(D::time), otherwise("none"), "With [flow]: time in which the water flows, such as [\"0 h\", \"48 h\"], in increments; it has its own clock. Joints store water meanwhile, and what the stage changes at its start meets water that has had no time to flow."},
     Key{"boundary:NAME", at<&Ramp::what>, varied(D::plain), otherwise("none"), "Multiplier of the displacement, or of the traction, of that boundary."},
     Key{"hold", at<&Ramp::hold>, choice, initial, "What each value is held for."},
     Key{"steps", at<&Ramp::steps>, whole(1, 100000), initial, "Number of increments, and so the accuracy of a collapse load."},
