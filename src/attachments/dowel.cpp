@@ -73,7 +73,7 @@ BarLink link_at(double hinges, double elongation, double offset) {
 }
 
 LinkForces link_forces(const LinkPair& trial, const LinkPair& stiffness, const LinkPair& strength,
-                       double beyond) {
+                       double hardening) {
   LinkForces f;
   const double n = trial.axial / strength.axial, v = trial.shear / strength.shear;
   const double whole = 0.5 * (trial.axial * trial.axial / stiffness.axial +
@@ -89,15 +89,15 @@ LinkForces link_forces(const LinkPair& trial, const LinkPair& stiffness, const L
                g_v = at.shear * s / (strength.shear * strength.shear);
   const double w = at.axial * rate.axial * g_n + at.shear * rate.shear * g_v;
   const double turn_n = at.axial * a * rate.axial, turn_v = at.shear * s * rate.shear;
-  const double e = stiffness.axial, c = stiffness.shear, held = 1.0 - beyond;
-  f.axial_slope = e * (held * (a - turn_n * g_n / w) + beyond);
-  f.shear_slope = c * (held * (s - turn_v * g_v / w) + beyond);
+  const double e = stiffness.axial, c = stiffness.shear, held = 1.0 - hardening;
+  f.axial_slope = e * (held * (a - turn_n * g_n / w) + hardening);
+  f.shear_slope = c * (held * (s - turn_v * g_v / w) + hardening);
   f.mixed_slope = -held * c * turn_n * g_v / w;
   const double flow_n = (trial.axial - at.axial) / e, flow_v = (trial.shear - at.shear) / c;
   f.energy = held * (0.5 * (at.axial * at.axial / e + at.shear * at.shear / c) + at.axial * flow_n +
                      at.shear * flow_v) +
-             beyond * whole;
-  f.force = {held * at.axial + beyond * trial.axial, held * at.shear + beyond * trial.shear};
+             hardening * whole;
+  f.force = {held * at.axial + hardening * trial.axial, held * at.shear + hardening * trial.shear};
   f.flows = true;
   return f;
 }

@@ -67,8 +67,8 @@ struct LinkForces {
   bool flows = false;
 };
 /// At the elastic trial forces `trial`: those on the strength surface that are closest to them in
-/// energy. Beyond it remains the part `beyond` of the stiffness.
+/// energy. Beyond it remains the part `hardening` of the stiffness.
 LinkForces link_forces(const LinkPair& trial, const LinkPair& stiffness, const LinkPair& strength,
-                       double beyond);
+                       double hardening);
 
 }  // namespace edda

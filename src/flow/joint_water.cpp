@@ -158,8 +158,9 @@ class Flow {
       auto at = std::lower_bound(joints_.contents.begin(), joints_.contents.end(), key, before);
       const bool known = at != joints_.contents.end() && key_of(*at) == key;
       for (; at != joints_.contents.end() && key_of(*at) == key; ++at) {
-        content[pipe.from] += share_of(*at, pipe, pipe.part_to, pipe.part_from);
-        content[pipe.to] += share_of(*at, pipe, pipe.part_from, pipe.part_to);
+        const double middle = 0.5 * (pipe.part_from + pipe.part_to);
+        content[pipe.from] += share_of(*at, pipe.part_from, middle);
+        content[pipe.to] += share_of(*at, middle, pipe.part_to);
       }
       if (known) continue;
       content[pipe.from] += pipe.volume.a * part_of(pipe.from);
@@ -167,18 +168,14 @@ class Flow {
     }
     return content;
   }
-  /// Of what a pipe contained, as a density linear along it, the part in another pipe of the face,
-  /// by weights that are 0 at `none` and 1 at `one` of it.
-  static double share_of(const WaterContent& c, const FlowPipe& pipe, double none, double one) {
-    const double from = std::max(c.part_from, pipe.part_from),
-                 to = std::min(c.part_to, pipe.part_to), length = c.part_to - c.part_from;
-    if (!(to > from)) return 0.0;
-    const double first = (4.0 * c.from - 2.0 * c.to) / length,
-                 last = (4.0 * c.to - 2.0 * c.from) / length;
-    const auto at = [&](double t) {
-      return (first + (last - first) * (t - c.part_from) / length) * (t - none) / (one - none);
+  /// Of what a pipe contained, the share of its first node in its first half and that of the other
+  /// one in the second, what is in the half from `from` to `to` of a pipe of the same face.
+  static double share_of(const WaterContent& c, double from, double to) {
+    const double middle = 0.5 * (c.part_from + c.part_to);
+    const auto common = [&](double begin, double end) {
+      return std::max(0.0, std::min(to, end) - std::max(from, begin)) / (end - begin);
     };
-    return (to - from) / 6.0 * (at(from) + 4.0 * at(0.5 * (from + to)) + at(to));  // Simpson
+    return c.from * common(c.part_from, middle) + c.to * common(middle, c.part_to);
   }
 
   /// The highest head of lines in the rock and of what lies open beside a node.
