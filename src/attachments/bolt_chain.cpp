@@ -66,9 +66,11 @@ void yield_to(BoltSprings& s, std::size_t k, double elongation, Spent& spent) {
   set_force(s, k, stretch, force, std::abs(force) > s.strength[k], spent);
 }
 
-double elongation(const Bolts& b, const std::vector<double>& slip, std::size_t k) {
-  const BarFrame& f = b.frame[k];
+double elongation(const BarFrame& f, const std::vector<double>& slip, std::size_t k) {
   return f.stretch + slip[k + 1] * f.end - slip[k] * f.start;
+}
+double elongation(const Bolts& b, const std::vector<double>& slip, std::size_t k) {
+  return elongation(b.frame[k], slip, k);
 }
 
 double offset(const BarFrame& f) {
@@ -331,7 +333,7 @@ NodeVectors carriers_at(const Bolts& b, const BlockSet& blocks, const State& sta
 }
 
 BarLink link_of(const Bolts& b, const BarFrame& f, std::size_t k) {
-  return link_at(b.hinges[k], f.stretch + b.slip[k + 1] * f.end - b.slip[k] * f.start, offset(f));
+  return link_at(b.hinges[k], elongation(f, b.slip, k), offset(f));
 }
 
 BarFrame bar_frame(const Bolts& b, const BlockSet& blocks, const State& state, std::size_t k) {

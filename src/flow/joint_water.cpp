@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <span>
-#include <tuple>
 
 namespace edda {
 namespace {

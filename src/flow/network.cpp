@@ -357,7 +357,7 @@ class Builder {
       OpenPart part{gap.edge, gap.from, gap.to, gap.open ? no_id : from, gap.wet, from, to, 0.0};
       if (gap.open && rains_) {
         part.sky = width_under_sky(gap);
-        choose_outcrops(g, part);
+        if (part.sky > 0.0) choose_outcrops(g, part);
       }
       net_.open.push_back(part);
       if (!gap.open) continue;

@@ -33,7 +33,7 @@ class SeepageSolver {
       }
     }
     list_pipes();
-    if (storage != nullptr) list_gives();
+    list_gives();
     find_inside();
     std::stable_sort(inside_.begin(), inside_.end(),
                      [&](Id a, Id b) { return net.nodes[a].place.y > net.nodes[b].place.y; });
@@ -108,6 +108,7 @@ class SeepageSolver {
 
   void list_gives() {
     first_give_.assign(net_.nodes.size() + 1, 0);
+    if (storage_ == nullptr) return;
     for (const Storage::Give& g : storage_->gives) ++first_give_[g.node + 1];
     std::partial_sum(first_give_.begin(), first_give_.end(), first_give_.begin());
   }
@@ -283,8 +284,7 @@ class SeepageSolver {
           add(k, row[m], time * conductance * drop);
         }
       }
-      for (std::size_t q = storage_ == nullptr ? 0 : first_give_[n];
-           storage_ != nullptr && q < first_give_[n + 1]; ++q) {
+      for (std::size_t q = first_give_[n]; q < first_give_[n + 1]; ++q) {
         const auto [node, other, compliance] = storage_->gives[q];
         if (other == n || row[other] == no_id || wet[row[other]] == 0) continue;
         add(k, row[other],

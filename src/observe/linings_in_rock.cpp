@@ -30,8 +30,7 @@ double depth_in(const BlockSet& b, Id j, Vec2 p) {
   bool inside = false;
   for (Id v = b.vertex_begin[j]; v < b.vertex_begin[j + 1]; ++v) {
     const Vec2 from = b.vertex(v), to = b.vertex(b.next[v]), along = to - from;
-    const double s = std::clamp(dot(p - from, along) / dot(along, along), 0.0, 1.0);
-    depth = std::min(depth, norm(from + s * along - p));
+    depth = std::min(depth, distance_to_segment(p, from, to));
     if ((from.y > p.y) != (to.y > p.y) && (cross(along, p - from) > 0.0) == (to.y > from.y))
       inside = !inside;
   }
