@@ -24,6 +24,18 @@ double inverse_product(const Masses& masses, std::size_t i, const NodeWeights& u
 
 }  // namespace
 
+double inverse_product(const Masses& m, const BlockSet& b, std::size_t v, std::size_t w) {
+  const std::size_t i = b.vertex_block[v];
+  const double of_nodes = inverse_product(m, i, weights_of(b.weight, v), weights_of(b.weight, w));
+  const BlockModes modes = b.modes(i);
+  if (modes.count == 0) return of_nodes;
+  const std::size_t at = v - b.vertex_begin[i], with = w - b.vertex_begin[i];
+  const std::size_t first = modes.of_mesh() ? b.meshes.begin[i] : 0;
+  return of_nodes + m.mode_inverse[i] * (modes.of_mesh()
+                                             ? b.meshes.inverse_product(i, first + at, first + with)
+                                             : modes.product(at, with));
+}
+
 Masses given_masses(const BlockSet& b) {
   Masses m;
   m.kind = b.mass_kind;
@@ -139,21 +151,9 @@ void fill_point_masses(Masses& m, const BlockSet& b) {
     if (inertia > 0.0) m.mode_inverse[i] = b.is_meshed(i) ? 1.0 / inertia : corners / inertia;
   }
   for (std::size_t v = 0; v < b.vertex_count(); ++v) {
-    const std::size_t i = b.vertex_block[v];
-    if (b.fixed[i]) continue;
-    const NodeWeights w = weights_of(b.weight, v);
-    m.point_inverse[v] = inverse_product(m, i, w, w);
-    m.edge_inverse[v] = inverse_product(m, i, w, weights_of(b.weight, b.next[v]));
-    const BlockModes modes = b.modes(i);
-    if (modes.count == 0) continue;
-    const std::size_t at = v - b.vertex_begin[i], other = b.next[v] - b.vertex_begin[i];
-    const auto product = [&](std::size_t with) {
-      if (!modes.of_mesh()) return modes.product(at, with);
-      const std::size_t first = b.meshes.begin[i];
-      return b.meshes.inverse_product(i, first + at, first + with);
-    };
-    m.point_inverse[v] += m.mode_inverse[i] * product(at);
-    m.edge_inverse[v] += m.mode_inverse[i] * product(other);
+    if (b.fixed[b.vertex_block[v]]) continue;
+    m.point_inverse[v] = inverse_product(m, b, v, v);
+    m.edge_inverse[v] = inverse_product(m, b, v, b.next[v]);
   }
 }
 

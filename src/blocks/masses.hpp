@@ -85,6 +85,10 @@ Unbalanced unbalanced_forces(const Masses& masses, const BlockSet& blocks,
 double kinetic_energy(const Masses& masses, const BlockSet& blocks, const BodyVectors& velocity,
                       std::size_t i);
 
+/// w_v^T M^-1 w_u of two vertices of a block that is not fixed: acceleration of one by a unit force
+/// on the other, 1/kg.
+double inverse_product(const Masses& masses, const BlockSet& blocks, std::size_t v, std::size_t u);
+
 /// Quadratic form of the inverse mass along an edge, 1/kg: w^T M^-1 w at its start, of both ends,
 /// and at its end (Masses::point_inverse, edge_inverse).
 struct EdgeInverseMass {

@@ -51,7 +51,7 @@ class Flow {
     return found;
   }
 
-  std::vector<BlockForce> solve_in_step(const WaterInStep& step) {
+  std::vector<CornerForce> solve_in_step(const WaterInStep& step) {
     const std::vector<NodeForce> forces = node_forces(net_, s_);
     Storage storage;
     storage.passed = step.passed;
@@ -63,19 +63,16 @@ class Flow {
     }
     storage.content = contents_of_nodes();
     solve(&storage);
-    std::vector<BlockForce> more;
+    std::vector<CornerForce> more;
     for (const NodeForce& f : forces) {
       const double rise = water_[f.node].pressure - storage.acting[f.node];
-      if (more.empty() || more.back().block != f.block) {
-        more.push_back({f.block, rise * f.force});
-      } else {
-        more.back().force += rise * f.force;
-      }
+      more.push_back({f.block, f.corner, rise * f.force});
     }
     return more;
   }
 
   void solve(const Storage* storage = nullptr) {
+    timed_ = storage != nullptr;
     if (!solve_seepage(net_, given_, gamma_, water_, storage)) ++joints_.not_found;
     joints_.heads.assign(s_.model.waters.size(), 0);
     for (const HeadNode& head : net_.heads) ++joints_.heads[static_cast<std::size_t>(head.water)];
@@ -123,7 +120,7 @@ class Flow {
     for (const CoveredPart& part : net_.covered) {
       if (!is_free(s_.blocks, s_.state, s_.blocks.vertex_block[part.edge])) continue;
       const FlowPipe& pipe = net_.pipes[part.pipe];
-      PipeLevels levels = levels_of(net_, pipe, gamma_, water_);
+      PipeLevels levels = linear(levels_of(net_, pipe, gamma_, water_), pipe);
       if (part.from_node != pipe.from) std::swap(levels.from, levels.to);
       wet.push_back({part.edge, part.from, part.to, levels.from, levels.to, flow_row});
     }
@@ -144,6 +141,12 @@ class Flow {
   }
 
  private:
+  /// Linear levels with the same force and moment as the water along the pipe.
+  static PipeLevels linear(PipeLevels levels, const FlowPipe& pipe) {
+    const double drop = levels.to - levels.from;
+    return {levels.from + drop * (4.0 * pipe.of_to.a - 2.0 * pipe.of_to.b),
+            levels.from + drop * (4.0 * pipe.of_to.b - 2.0 * pipe.of_to.a)};
+  }
   /// s + p/K
   double part_of(Id n) const {
     return water_[n].filled + water_[n].pressure / s_.model.flow->bulk_modulus;
@@ -197,18 +200,34 @@ class Flow {
       const Water& water = s_.model.waters[static_cast<std::size_t>(head.water)];
       take(given, head.water, level_of(water, s_.blocks.origin, node.place.x), node);
     }
+    for_injections([&](Id n, Index, double rate) { given_[n].source += rate; });
     for (std::size_t q = 0; q < s_.model.waters.size(); ++q) {
       if (s_.model.waters[q].rain) let_rain(static_cast<Index>(q));
     }
   }
 
+  /// Calls f(node, water, m2/s) for the injections that act and do not lead into the open.
+  template <class F>
+  void for_injections(const F& f) {
+    for (const FlowGround::Injection& injection : joints_.ground.injections) {
+      const Id n = net_.node_of[injection.corner];
+      const Water& water = s_.model.waters[static_cast<std::size_t>(injection.water)];
+      if (n == no_id || given_[n].kind != Kind::inside) continue;
+      f(n, injection.water, rate_of(*water.injection, injection.water));
+    }
+  }
+
+  /// By the history and the multiplier of the water.
+  double rate_of(double given, Index water) const {
+    const auto row = static_cast<std::size_t>(water);
+    const Water& of = s_.model.waters[row];
+    const double factor = of.history.empty() ? 1.0 : now_.rise[row];
+    return given * factor * now_.weight[row] / (of.unit_weight * thickness_);
+  }
+
   /// What falls on ground between two joints goes to both.
   void let_rain(Index water) {
-    const auto row = static_cast<std::size_t>(water);
-    const Water& rain = s_.model.waters[row];
-    const double factor = rain.history.empty() ? 1.0 : now_.rise[row];
-    const double rate =
-        *rain.rain * factor * now_.weight[row] / (rain.unit_weight * thickness_);  // m/s
+    const double rate = rate_of(*s_.model.waters[static_cast<std::size_t>(water)].rain, water);
     for (const OpenPart& open : net_.open) {
       const std::array ends{open.from_node, open.to_node};
       const double parts = static_cast<double>(
@@ -245,12 +264,18 @@ class Flow {
       joints_.inflow[open ? joints_.inflow.size() - 1 : static_cast<std::size_t>(given.water)] +=
           out_of[n];
     }
+    for_injections([&](Id n, Index water, double rate) {
+      const double part = out_of[n] / given_[n].source;  // 0 where no water can leave
+      if (rate > 0.0)
+        joints_.inflow[static_cast<std::size_t>(water)] += (timed_ ? 1.0 : part) * rate;
+    });
   }
 
   JointWater& joints_;
   const FlowScene& s_;
   const LoadsNow& now_;
   double thickness_, gamma_ = 0.0;
+  bool timed_ = false;
   FlowNetwork net_;
   std::vector<NodeCondition> given_;
   std::vector<NodeWater> water_;
@@ -276,10 +301,10 @@ void put_flow(JointWater& joints, const FlowScene& scene, const LoadsNow& now, L
   put_water(scene.blocks, Flow(joints, scene, now).wet_edges(), loads);
 }
 
-std::vector<BlockForce> flow_in_step(JointWater& joints, const FlowScene& scene,
-                                     const LoadsNow& now, const WaterInStep& step, Loads& loads) {
+std::vector<CornerForce> flow_in_step(JointWater& joints, const FlowScene& scene,
+                                      const LoadsNow& now, const WaterInStep& step, Loads& loads) {
   Flow flow(joints, scene, now);
-  std::vector<BlockForce> forces = flow.solve_in_step(step);
+  std::vector<CornerForce> forces = flow.solve_in_step(step);
   flow.report();
   put_water(scene.blocks, flow.wet_edges(), loads);
   return forces;

@@ -45,10 +45,9 @@ void take_contents(JointWater& joints, const FlowScene& scene, const LoadsNow& n
 /// Puts the water in joints on their walls as these are, with the pressures that it has.
 void put_flow(JointWater& joints, const FlowScene& scene, const LoadsNow& now, Loads& loads);
 
-/// Forces on a block.
-struct BlockForce {
-  Id block;
-  BodyVector force;
+struct CornerForce {
+  Id block, corner;
+  Vec2 force;  ///< N
 };
 /// What the blocks in a step do to the water in joints, and it to them.
 struct WaterInStep {
@@ -58,9 +57,9 @@ struct WaterInStep {
 };
 /// Solves for the water as it is at the end of a step, scene.pose, that has been made under its
 /// pressures before; puts it on the walls, and returns what must be added to the forces on the
-/// blocks, so that the step is made under the pressures at its end.
-std::vector<BlockForce> flow_in_step(JointWater& joints, const FlowScene& scene,
-                                     const LoadsNow& now, const WaterInStep& step, Loads& loads);
+/// blocks, by block, so that the step is made under the pressures at its end.
+std::vector<CornerForce> flow_in_step(JointWater& joints, const FlowScene& scene,
+                                      const LoadsNow& now, const WaterInStep& step, Loads& loads);
 /// What follows changes gradually from the water in joints as it is now.
 void keep_water(JointWater& joints, const Loads& loads, Index waters);
 

@@ -317,6 +317,7 @@ class Builder {
           until,
           length,
           conductance_of(there(last), there(until), length, s_.model.flow->viscosity),
+          parts_of_end(there(last), there(until)),
           {length * (2.0 * there(last) + there(until)) / 6.0,
            length * (there(last) + 2.0 * there(until)) / 6.0},
           {(1.0 - last) * free.a + last * free.b, (1.0 - until) * free.a + until * free.b}};
@@ -436,6 +437,28 @@ double conductance_of(double from, double to, double length, double viscosity) {
   return both * both / (6.0 * viscosity * length * (from + to));
 }
 
+FaceEnds parts_of_end(double a, double b) {
+  if (b > a) {  // f from the other end, of which it is 1 - f
+    const FaceEnds other = parts_of_end(b, a);
+    return {0.5 - other.b, 0.5 - other.a};
+  }
+  const double r = b / a, x = 1.0 - r;
+  const double whole = r / (1.0 + r);  // of f
+  double of_b;
+  if (x < 0.1) {
+    constexpr int terms = 16;
+    double above = 0.0, below = 0.0;
+    for (int k = terms; k >= 1; --k) {
+      above = (k + 1.0) / (k + 2.0) + x * above;
+      below = (k + 1.0) + x * below;
+    }
+    of_b = above / below;
+  } else {
+    of_b = ((std::log(r) + x / r) / (x * x) - 0.5) * r * r / (x * (1.0 + r));
+  }
+  return {whole - of_b, of_b};
+}
+
 FlowGround flow_ground(const Model& model, const BlockSet& b, std::vector<WetEdge> outside) {
   FlowGround ground;
   ground.snap = boundary_snap(model, b);
@@ -466,6 +489,23 @@ FlowGround flow_ground(const Model& model, const BlockSet& b, std::vector<WetEdg
 
 FlowNetwork flow_network(const FlowScene& scene, const FlowGround& ground) {
   return Builder(scene, ground).build();
+}
+
+void note_injections(const FlowScene& scene, FlowGround& ground) {
+  const BlockSet& b = scene.blocks;
+  const FlowNetwork net = flow_network(scene, ground);
+  for (std::size_t q = 0; q < scene.model.waters.size(); ++q) {
+    const Water& water = scene.model.waters[q];
+    if (!water.injection) continue;
+    Id nearest = no_id;
+    const auto far = [&](Id v) { return norm(b.vertex(v) + b.origin - *water.at); };
+    for (Id v = 0; v < b.vertex_count(); ++v) {
+      const Id n = net.node_of[v];
+      if (n == no_id || !(net.nodes[n].conductance > 0.0)) continue;
+      if (nearest == no_id || far(v) < far(nearest)) nearest = v;
+    }
+    if (nearest != no_id) ground.injections.push_back({nearest, static_cast<Index>(q)});
+  }
 }
 
 void note_open_edges(const FlowScene& scene, FlowGround& ground) {

@@ -21,6 +21,12 @@ struct FlowGround {
     Index water;
   };
   std::vector<HeadLine> heads;
+  /// A corner at the crossing of joints into which a water is injected.
+  struct Injection {
+    Id corner;
+    Index water;
+  };
+  std::vector<Injection> injections;
   std::vector<std::vector<Id>> along;  ///< [rows of Model::boundaries] edges on those that go on
                                        ///< as rock: all but tractions of their own
   std::vector<std::uint8_t> open;      ///< [nv] 1: no block is beside the edge, or beside a part
@@ -42,9 +48,11 @@ struct FlowPipe {
   double part_from, part_to;  ///< of the overlap of the face, 0 at end a, 1 at end b
   double length;              ///< m
   double conductance;         ///< m2/s per Pa
-  FaceEnds volume;            ///< m2: the parts of its two nodes, by weights linear along it
-  FaceEnds follows;           ///< 1: the aperture at this end opens with the walls; 0: it is at the
-                              ///< residual or the largest one
+  FaceEnds of_to;    ///< of the pressure at `to`, on the side of end a and on that of end b
+                     ///< (parts_of_end()); of that at `from` it is the rest of a half
+  FaceEnds volume;   ///< m2: the parts of its two nodes, by weights linear along it
+  FaceEnds follows;  ///< 1: the aperture at this end opens with the walls; 0: it is at the
+                     ///< residual or the largest one
 };
 
 /// A part of an edge that a joint with water covers, from the node `from_node` to the other one of
@@ -104,10 +112,18 @@ struct FlowScene {
 FlowNetwork flow_network(const FlowScene& scene, const FlowGround& ground);
 /// Marks in `ground` the edges of free blocks beside which no block is now, boundaries or not.
 void note_open_edges(const FlowScene& scene, FlowGround& ground);
+/// Notes in `ground` which crossings are nearest to the injections, as drawn; none where no joint
+/// conducts water.
+void note_injections(const FlowScene& scene, FlowGround& ground);
 
 /// Discharge over the difference of pressures of a joint between parallel plates whose aperture is
 /// linear between its ends (m), of unit thickness, m2/s per Pa:
 ///   1 / Int 12 mu/h^3 ds = h_a^2 h_b^2 / (6 mu l (h_a + h_b)),   h^3/(12 mu l) of a uniform one
 double conductance_of(double from_aperture, double to_aperture, double length, double viscosity);
+/// Along the joint the potential falls as its aperture demands:
+///   phi = phi_a + (phi_b - phi_a) f,  f = (h^-2 - h_a^-2)/(h_b^-2 - h_a^-2)
+/// Integrals over its length, as a part of it, of f (1 - s) and f s, s from 0 at end a to 1 at end
+/// b: 1/6 and 1/3 where the aperture is uniform.
+FaceEnds parts_of_end(double a_aperture, double b_aperture);
 
 }  // namespace edda

@@ -7,6 +7,25 @@
 #include "blocks/kinematics.hpp"
 
 namespace edda {
+namespace {
+
+/// Sorts rows by key(row), and adds up those with the same key.
+template <class Row, class Key, class Add>
+void merge(std::vector<Row>& rows, const Key& key, const Add& add) {
+  std::stable_sort(rows.begin(), rows.end(),
+                   [&](const Row& r, const Row& q) { return key(r) < key(q); });
+  std::size_t count = 0;
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    if (count > 0 && key(rows[count - 1]) == key(rows[k])) {
+      add(rows[count - 1], rows[k]);
+    } else {
+      rows[count++] = rows[k];
+    }
+  }
+  rows.resize(count);
+}
+
+}  // namespace
 
 std::vector<NodeForce> node_forces(const FlowNetwork& net, const FlowScene& s) {
   const BlockSet& b = s.blocks;
@@ -15,40 +34,30 @@ std::vector<NodeForce> node_forces(const FlowNetwork& net, const FlowScene& s) {
     const Id block = b.vertex_block[part.edge];
     if (!is_free(b, s.state, block)) continue;
     const FlowPipe& pipe = net.pipes[part.pipe];
-    const Id other = part.from_node == pipe.from ? pipe.to : pipe.from;
     const Id end = b.next[part.edge];
     const Vec2 u = at(s.pose.x, s.pose.y, end) - at(s.pose.x, s.pose.y, part.edge);
     const Vec2 whole = -(part.to - part.from) * s.model.thickness * outward_normal(u);
-    const FaceEnds follows =
-        part.from_node == pipe.from ? pipe.follows : FaceEnds{pipe.follows.b, pipe.follows.a};
-    const auto on_block = [&](double at_from, double at_to) {
-      BlockForces on{b, block};
-      const EndForces ends = on_vertices(part.from, part.to, {at_from * whole, at_to * whole});
-      on.at_corner(part.edge, ends.at_from);
-      on.at_corner(end, ends.at_to);
-      return on.sum;
+    const bool along = part.from_node == pipe.from;
+    const FaceEnds follows = along ? pipe.follows : FaceEnds{pipe.follows.b, pipe.follows.a};
+    const auto add = [&](Id node, FaceEnds presses, FaceEnds opens) {
+      const EndForces force =
+          on_vertices(part.from, part.to, {presses.a * whole, presses.b * whole});
+      const EndForces open = on_vertices(
+          part.from, part.to, {opens.a * follows.a * whole, opens.b * follows.b * whole});
+      forces.push_back({block, part.edge, node, force.at_from, open.at_from});
+      forces.push_back({block, end, node, force.at_to, open.at_to});
     };
-    const auto add = [&](Id node, double at_from, double at_to) {
-      forces.push_back({block, node, on_block(at_from, at_to),
-                        on_block(follows.a * at_from, follows.b * at_to)});
-    };
-    add(part.from_node, 1.0 / 3.0, 1.0 / 6.0);
-    add(other, 1.0 / 6.0, 1.0 / 3.0);
+    const FaceEnds of_to = along ? pipe.of_to : FaceEnds{pipe.of_to.b, pipe.of_to.a};
+    const FaceEnds of_a{1.0 / 3.0, 1.0 / 6.0}, of_b{1.0 / 6.0, 1.0 / 3.0};
+    add(pipe.to, of_to, along ? of_b : of_a);
+    add(pipe.from, {0.5 - of_to.a, 0.5 - of_to.b}, along ? of_a : of_b);
   }
-  const auto key = [](const NodeForce& f) { return std::tuple(f.block, f.node); };
-  std::stable_sort(forces.begin(), forces.end(),
-                   [&](const NodeForce& f, const NodeForce& g) { return key(f) < key(g); });
-  std::size_t count = 0;
-  for (std::size_t k = 0; k < forces.size(); ++k) {
-    if (count > 0 && key(forces[count - 1]) == key(forces[k])) {
-      forces[count - 1].force += forces[k].force;
-      forces[count - 1].opens += forces[k].opens;
-    } else {
-      if (count != k) forces[count] = forces[k];
-      ++count;
-    }
-  }
-  forces.erase(forces.begin() + static_cast<std::ptrdiff_t>(count), forces.end());
+  merge(
+      forces, [](const NodeForce& f) { return std::tuple(f.block, f.corner, f.node); },
+      [](NodeForce& sum, const NodeForce& f) {
+        sum.force += f.force;
+        sum.opens += f.opens;
+      });
   return forces;
 }
 
@@ -56,17 +65,33 @@ std::vector<Storage::Give> gives_of(const std::vector<NodeForce>& forces, const 
                                     const Masses& masses, double seconds_squared) {
   std::vector<Storage::Give> gives;
   const double factor = seconds_squared / s.model.thickness;
+  const auto end_of = [&](std::size_t k, auto of) {
+    const std::size_t first = k;
+    while (k < forces.size() && of(forces[k]) == of(forces[first])) ++k;
+    return k;
+  };
+  const auto block_of = [](const NodeForce& f) { return f.block; };
+  const auto corner_of = [](const NodeForce& f) { return f.corner; };
   for (std::size_t begin = 0, end = 0; begin < forces.size(); begin = end) {
-    while (end < forces.size() && forces[end].block == forces[begin].block) ++end;
-    for (std::size_t k = begin; k < end; ++k) {
-      const BodyVector moves = accelerations(masses, s.blocks, forces[k].block, forces[k].force);
-      for (std::size_t q = begin; q < end; ++q)
-        gives.push_back({forces[q].node, forces[k].node, factor * dot(forces[q].opens, moves)});
+    end = end_of(begin, block_of);
+    const bool meshed = s.blocks.is_meshed(forces[begin].block);
+    for (std::size_t k = begin, k_end = begin; k < end; k = k_end) {
+      k_end = end_of(k, corner_of);
+      for (std::size_t q = meshed ? k : begin, q_end = q; q < (meshed ? k_end : end); q = q_end) {
+        q_end = end_of(q, corner_of);
+        const double moves =
+            factor * inverse_product(masses, s.blocks, forces[q].corner, forces[k].corner);
+        for (std::size_t of = q; of < q_end; ++of) {
+          for (std::size_t by = k; by < k_end; ++by)
+            gives.push_back({forces[of].node, forces[by].node,
+                             moves * dot(forces[of].opens, forces[by].force)});
+        }
+      }
     }
   }
-  std::stable_sort(gives.begin(), gives.end(), [](const auto& g, const auto& f) {
-    return std::tuple(g.node, g.other) < std::tuple(f.node, f.other);
-  });
+  merge(
+      gives, [](const Storage::Give& g) { return std::pair(g.node, g.other); },
+      [](Storage::Give& sum, const Storage::Give& g) { sum.compliance += g.compliance; });
   return gives;
 }
 

@@ -9,19 +9,17 @@
 
 namespace edda {
 
-/// Forces on a free block of a pressure of 1 Pa at a node, linear along its pipes to 0 at the
-/// others: b, N/Pa. A displacement u of the block opens the part of the joints that is the node's
-/// by b . u over the thickness, where apertures follow their walls.
+/// Force on a corner of a free block of a pressure of 1 Pa at a node, N/Pa; and what the joints
+/// that are the node's open where the corner moves, times the thickness: m2 per m.
 struct NodeForce {
-  Id block, node;
-  BodyVector force;
-  BodyVector opens;  ///< b, of what follows
+  Id block, corner, node;
+  Vec2 force, opens;
 };
-/// By block and node.
+/// By block and corner.
 std::vector<NodeForce> node_forces(const FlowNetwork& network, const FlowScene& scene);
 
-/// opens M^-1 b times `seconds_squared` over the thickness: how volumes grow in a step whose forces
-/// had the pressures, too.
+/// opens M^-1 force times `seconds_squared` over the thickness: how volumes grow in a step whose
+/// forces had the pressures, too.
 std::vector<Storage::Give> gives_of(const std::vector<NodeForce>& forces, const FlowScene& scene,
                                     const Masses& masses, double seconds_squared);
 

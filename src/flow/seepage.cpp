@@ -63,12 +63,17 @@ class SeepageSolver {
     double conductance;
   };
 
-  /// No potential is above the highest one given. Where nothing is known all nodes have it.
+  /// No potential is above the highest one given, but where water is injected. Where nothing is
+  /// known all nodes have it.
   void begin() {
     highest_ = -std::numeric_limits<double>::infinity();
     for (std::size_t n = 0; n < given_.size(); ++n) {
       if (gives(n)) highest_ = std::max(highest_, potential(n));
     }
+    for (const Id n : inside_) {
+      if (injects(n)) highest_ = std::numeric_limits<double>::infinity();
+    }
+    if (std::isinf(highest_)) return;
     for (const Id n : inside_) {
       if (water_[n].pressure > 0.0 || water_[n].filled > 0.0) return;
     }
@@ -79,6 +84,9 @@ class SeepageSolver {
   }
   bool gives(std::size_t n) const {
     return given_[n].kind == Kind::pressure || given_[n].kind == Kind::rain;
+  }
+  bool injects(std::size_t n) const {
+    return given_[n].kind == Kind::inside && given_[n].source > 0.0;
   }
   double most_of(Id n) const { return highest_ - gamma_ * net_.nodes[n].place.y; }
 
@@ -113,13 +121,15 @@ class SeepageSolver {
     std::partial_sum(first_give_.begin(), first_give_.end(), first_give_.begin());
   }
 
-  /// The nodes inside the rock that pipes connect to a given pressure; of those that store water
-  /// all. The others are dry.
+  /// The nodes inside the rock that pipes connect to a given pressure, or where water is injected
+  /// to the air; of those that store water all. The others are dry.
   void find_inside() {
     std::vector<std::uint8_t> connected(given_.size(), storage_ == nullptr ? 0 : 1);
     std::vector<Id> next;
+    bool any_injects = false;
+    for (std::size_t n = 0; n < given_.size(); ++n) any_injects = any_injects || injects(n);
     for (Id n = 0; n < given_.size(); ++n) {
-      if (gives(n)) next.push_back(n);
+      if (gives(n) || (any_injects && given_[n].kind == Kind::air)) next.push_back(n);
     }
     while (!next.empty()) {
       const Id n = next.back();

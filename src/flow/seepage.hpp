@@ -28,7 +28,7 @@ struct NodeCondition {
   Kind kind = Kind::inside;
   double pressure = 0.0;  ///< Pa
   Index water = none;     ///< which gives the pressure, or the rain
-  double source = 0.0;    ///< m2/s
+  double source = 0.0;    ///< m2/s: of rain, or what is injected
 };
 
 struct NodeWater {

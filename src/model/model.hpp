@@ -263,6 +263,8 @@ struct Water {
   std::vector<Vec2> table;           ///< from left to right; either this or `level`
   std::optional<double> level;       ///< m
   std::optional<double> rain;        ///< m/s; in place of either
+  std::optional<double> injection;   ///< m2/s into the joints, in place of either, at
+  std::optional<Vec2> at;            ///< their crossing nearest to it
   std::vector<std::string> sides;    ///< where the rock has this head, or
   std::vector<Vec2> along;           ///< the polyline along which it has
   std::vector<std::string> flooded;  ///< flooded openings

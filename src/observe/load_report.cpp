@@ -126,6 +126,18 @@ std::vector<std::string> load_report(const Simulation& sim) {
                                   range_of(water.rise, "times", "")));
       continue;
     }
+    if (water.injection) {
+      std::string where = "where no joint conducts water";
+      for (const FlowGround::Injection& into : sim.attached.joint_water.ground.injections) {
+        if (static_cast<std::size_t>(into.water) != q) continue;
+        const Vec2 at = b.vertex(into.corner) + b.origin;
+        where = fmt::format("at ({:.4g}, {:.4g})", at.x, at.y);
+      }
+      lines.push_back(fmt::format("{}: injects {:.4g} m2/s into the joints {}{}",
+                                  row_label("water", water.name, q), *water.injection, where,
+                                  range_of(water.rise, "times", "")));
+      continue;
+    }
     if (water.level) {
       lines.push_back(fmt::format("{} at the level {:.4g} m in the rock, where its line meets {}{}",
                                   row_label("water", water.name, q), *water.level,

@@ -102,7 +102,7 @@ void warn_of_dry_waters(const Simulation& sim, std::vector<std::string>& warning
   for (std::size_t q = 0; q < wets.size(); ++q) {
     const Water& water = model.waters[q];
     const bool in_rock = !water.sides.empty() || !water.along.empty();
-    if (wets[q] || in_rock || water.rain || !water.history.empty()) continue;
+    if (wets[q] || in_rock || water.rain || water.injection || !water.history.empty()) continue;
     warnings.push_back(fmt::format(
         "{}: the table lies below all faces of free blocks: it has no effect; check its level",
         water.where.key));

@@ -28,6 +28,7 @@ void start_flow(Simulation& sim) {
   for (std::size_t k = 0; k < faces.size(); ++k)
     decide_activity(faces, sim.scene->blocks, sim.motion.pose, {false, false}, k);
   note_open_edges(flow_scene(sim), sim.attached.joint_water.ground);
+  note_injections(flow_scene(sim), sim.attached.joint_water.ground);
   update_flow(sim);
 }
 
@@ -60,10 +61,13 @@ void flow_within_step(Simulation& sim, double h_old) {
   const WaterInStep step{sim.motion.masses, 0.5 * (h_old + state.step) * state.step,
                          time.at(state.time, loads.gradual) - time.before};
   const LoadsNow now = waters_at(sim.scene->model, loads, state.time);
-  for (const BlockForce& f :
-       flow_in_step(sim.attached.joint_water, flow_scene(sim), now, step, loads))
-    store(vector_of(blocks, sim.motion.forces, f.block) + f.force, blocks, sim.motion.forces,
-          f.block);
+  const std::vector<CornerForce> more =
+      flow_in_step(sim.attached.joint_water, flow_scene(sim), now, step, loads);
+  for (auto f = more.begin(); f != more.end();) {
+    BlockForces on{blocks, f->block};
+    for (; f != more.end() && f->block == on.block; ++f) on.at_corner(f->corner, f->force);
+    add(on.sum, blocks, sim.motion.forces, on.block);
+  }
 }
 
 }  // namespace edda

@@ -19,7 +19,7 @@ FlowNetwork network_of(const std::vector<Vec2>& places,
   for (const Vec2 p : places) net.nodes.push_back({p, 0.0, 0.0});
   for (const auto& [from, to, conductance] : pipes) {
     const double length = norm(places[from] - places[to]);
-    net.pipes.push_back({0, from, to, 0.0, 1.0, length, conductance, {}, {}});
+    net.pipes.push_back({0, from, to, 0.0, 1.0, length, conductance, {}, {}, {}});
     net.nodes[from].conductance += conductance;
     net.nodes[to].conductance += conductance;
   }
@@ -42,6 +42,40 @@ TEST(Seepage, ConductanceOfPlates) {
     resistance += 12.0 * 1e-3 / (h * h * h) * 2.0 / parts;
   }
   EXPECT_NEAR(conductance_of(1e-3, 4e-3, 2.0, 1e-3) * resistance, 1.0, 1e-8);
+}
+
+TEST(Seepage, PotentialAlongATaperedPipe) {
+  // By quadrature of f = Int h^-3 / its whole; uniform pipes have 1/6 and 1/3.
+  EXPECT_NEAR(parts_of_end(1e-3, 1e-3).a, 1.0 / 6.0, 1e-15);
+  EXPECT_NEAR(parts_of_end(1e-3, 1e-3).b, 1.0 / 3.0, 1e-15);
+  for (const double ratio : {0.02, 0.5, 0.899, 0.901, 0.999, 1.3, 40.0}) {
+    constexpr int parts = 200000;
+    double passed = 0.0, of_a = 0.0, of_b = 0.0;
+    for (int k = 0; k < parts; ++k) {
+      const double s = (k + 0.5) / parts, part = std::pow(1.0 + (ratio - 1.0) * s, -3.0) / parts;
+      of_a += (passed + 0.5 * part) * (1.0 - s) / parts;
+      of_b += (passed + 0.5 * part) * s / parts;
+      passed += part;
+    }
+    const FaceEnds found = parts_of_end(1e-4, ratio * 1e-4);
+    EXPECT_NEAR(found.a, of_a / passed, 1e-7) << ratio;
+    EXPECT_NEAR(found.b, of_b / passed, 1e-7) << ratio;
+  }
+}
+
+TEST(Seepage, WhatIsInjectedFlowsToTheAir) {
+  // 2e-6 m2/s at the middle of three pipes in a row whose ends are in the air.
+  const FlowNetwork net =
+      network_of({{0, 0}, {1, 0}, {3, 0}, {4, 0}}, {{0, 1, 1e-9}, {1, 2, 1e-9}, {2, 3, 1e-9}});
+  std::vector<NodeCondition> given(4);
+  given[0].kind = given[3].kind = Kind::air;
+  given[1].source = 2e-6;
+  const std::vector<NodeWater> water = solved(net, given);
+  EXPECT_NEAR(water[1].pressure, 2e-6 / 1.5e-9, 1e-5);
+  EXPECT_NEAR(water[2].pressure, 1e-6 / 1.5e-9, 1e-5);
+  // From where none can leave, none goes in.
+  given[0].kind = given[3].kind = Kind::inside;
+  EXPECT_EQ(solved(net, given)[1].pressure, 0.0);
 }
 
 TEST(Seepage, WheatstoneBridgeByHand) {

@@ -243,6 +243,10 @@ sides = ["left"]
 name = "storm"
 rain = "36 mm/h"
 unit_weight = 1e4
+[[water]]
+injection = "2e-4 m2/s"
+at = [15, 2]
+unit_weight = 1e4
 [flow]
 viscosity = "1.3 mPa s"
 bulk_modulus = "2 GPa"

@@ -340,8 +340,10 @@ void expect_every_load_key(const Model& m) {
   EXPECT_EQ(m.loads[1].factor.value, (std::vector<double>{0.0, 2.5}));
   EXPECT_EQ(m.loads[2].within.size(), 3U);
   EXPECT_EQ(m.loads[2].body_force, (Vec2{1e3, -5.0}));
-  ASSERT_EQ(m.waters.size(), 4U);
+  ASSERT_EQ(m.waters.size(), 5U);
   EXPECT_NEAR(*m.waters[3].rain, 1e-5, 1e-20);
+  EXPECT_EQ(m.waters[4].injection, 2e-4);
+  EXPECT_EQ(m.waters[4].at, (Vec2{15, 2}));
   EXPECT_EQ(m.waters[1].level, 3.0);
   EXPECT_EQ(m.waters[1].along, (std::vector<Vec2>{{0, 0}, {0, 9}}));
   EXPECT_EQ(m.waters[2].sides, std::vector<std::string>{"left"});

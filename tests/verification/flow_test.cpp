@@ -30,7 +30,7 @@ const std::string to_rest = "[[stage]]\nuntil = 'equilibrium'\nratio = 1e-8\n";
 
 /// A dam 20 m high and wide on one joint, 15 m of water before it and 3 m behind it.
 std::string dam(const std::string& more) {
-  return rock("aperture = 5e-4\n") +
+  return rock("aperture = 5e-4\nresidual_aperture = 5e-4\nlargest_aperture = 5e-4\n") +
          block("[[-10, -5], [30, -5], [30, 0], [-10, 0]]", "fixed = true\n") +
          block("[[0, 0], [20, 0], [20, 20], [0, 20]]") + table("[[-10, 15], [0, 15]]") +
          table("[[20, 3], [30, 3]]") + more + to_rest;
@@ -131,7 +131,7 @@ TEST(Flow, DiffusionAlongAJoint) {
   for (Id n = 0; n <= pipes; ++n) net.nodes[n].place = {n * part, 0.0};
   for (Id n = 0; n < pipes; ++n) {
     const double conductance = conductance_of(h, h, part, viscosity);
-    net.pipes.push_back({0, n, n + 1, 0.0, 1.0, part, conductance, {}, {}});
+    net.pipes.push_back({0, n, n + 1, 0.0, 1.0, part, conductance, {}, {}, {}});
     for (const Id end : {n, n + 1}) {
       net.nodes[end].conductance += conductance;
       net.nodes[end].volume += 0.5 * part * h;
@@ -246,6 +246,60 @@ TEST(Flow, AChangedApertureKeepsThePressure) {
       "change = [{ joints = 'base', to = 'grout', region = [[5, 0], [9, 0], [9, 2], [5, 2]] }]\n"
       "[joints.grout]\nfriction_angle = 30\nkn = 1e12\naperture = 2e-5\n";
   for (const auto& [x, p] : excess_pressures(settled(text).sim)) EXPECT_NEAR(p, 0.0, 0.1) << x;
+}
+
+/// Upper right quarter of a plane fracture that a borehole opens in rock without toughness: half of
+/// its aperture w, so that a quarter of the injection Q and of the viscosity flow as in the whole.
+std::string quarter_of_fracture() {
+  return "gravity = [0, 0]\n"
+         "[materials.far]\ndensity = 2500\nyoung = 30e9\npoisson = 0.2\nzone_size = 8\n"
+         "[materials.near]\ndensity = 2500\nyoung = 30e9\npoisson = 0.2\nzone_size = 0.75\n"
+         "[joints.plane]\nfriction_angle = 0\nkn = 1e12\n"
+         "aperture = 2e-6\nresidual_aperture = 1e-6\nlargest_aperture = 1e-2\n"
+         "[joints.none]\ntype = 'glued'\n[contact]\njoint = 'none'\n"
+         "[domain]\noutline = [[0, -10], [240, -10], [240, 240], [0, 240]]\nmaterial = 'far'\n"
+         "[[trace]]\npoints = [[0, 0], [240, 0]]\njoint = 'plane'\n"
+         "[[region]]\npolygon = [[0, 0], [40, 0], [40, 20], [0, 20]]\nmaterial = 'near'\n"
+         "[[fixed]]\npoint = [100, -5]\n[initial_stress]\nstress = [-5e6, -5e6, 0]\n"
+         "[[boundary]]\nsides = ['left', 'right', 'top']\ntype = 'roller'\n[zones]\n"
+         "[flow]\nviscosity = 0.25e-3\n"
+         "[[water]]\nname = 'borehole'\ninjection = 0.25e-2\nat = [0, 0]\n"
+         "[[stage]]\nuntil = 'equilibrium'\n[[stage]]\nactivate = ['borehole']\nramp = { flow = "
+         "[0, 4], steps = 16 }\n";
+}
+
+TEST(Flow, ABoreholeOpensAJoint) {
+  const PreparedRun run = settled(quarter_of_fracture());
+  // Half apertures over the fracture, above what the joint had.
+  const BlockSet& b = run.sim.scene->blocks;
+  std::vector<std::pair<double, double>> aperture;
+  for (const FlowRow& row : run.sim.attached.joint_water.rows) {
+    const Id edge = b.edge_length[row.edge] < b.edge_length[row.facing] ? row.edge : row.facing;
+    aperture.emplace_back(0.5 * (b.vertex(edge).x + b.vertex(b.next[edge]).x) + b.origin.x,
+                          row.aperture);
+  }
+  std::sort(aperture.begin(), aperture.end());
+  double pressure = 0.0;
+  for (const double p : run.sim.attached.joint_water.pressure) pressure = std::max(pressure, p);
+  // Geertsma and de Klerk's fracture without toughness and lag (Adachi & Detournay 2002): constants
+  // of the self-similar solution, E' = E/(1 - nu^2), mu' = 12 mu.
+  constexpr double Q = 1e-2, t = 4.0, E = 30e9 / 0.96, mu = 12.0 * viscosity;
+  const double length = std::pow(E * Q * Q * Q * t * t * t * t / mu, 1.0 / 6.0);
+  const double small = std::cbrt(mu / (E * t));
+  expect_relative({103, "zero toughness", "pressure at the borehole less the stress", "Pa"},
+                  pressure - 5e6, 0.5445 * small * E, 0.05);
+  const double slope =
+      (aperture[0].second - aperture[1].second) / (aperture[1].first - aperture[0].first);
+  expect_relative({103, "zero toughness", "aperture at the borehole", "m"},
+                  2.0 * (aperture[0].second + slope * aperture[0].first), 1.1254 * small * length,
+                  0.05);
+  // Near its end w^(3/2) falls linearly to 0: from the last two parts wider than a tenth.
+  std::size_t last = 0;
+  while (aperture[last + 1].second > 0.1 * aperture[0].second) ++last;
+  const auto power = [&](std::size_t k) { return std::pow(aperture[k].second, 1.5); };
+  const double end = aperture[last].first + power(last) / (power(last - 1) - power(last)) *
+                                                (aperture[last].first - aperture[last - 1].first);
+  expect_relative({103, "zero toughness", "half length", "m"}, end, 0.6158 * length, 0.05);
 }
 
 TEST(Flow, TimeEnoughIsSteadyFlow) {

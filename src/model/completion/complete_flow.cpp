@@ -8,15 +8,27 @@ namespace {
 
 void check_water(const Value* node, const Water& water, Reading& reading) {
   const std::string& key = water.where.key;
-  if (given(node, "rain")) {
-    for (const char* name : {"table", "level", "sides", "along", "flooded"}) {
-      if (given(node, name))
-        add_fault(reading, find(node, name)->place, key + "." + name, "rain is given too",
-                  "give one of them, or a second [[water]]");
+  const auto refuse = [&](const char* name, const std::string& problem, const char* remedy) {
+    add_fault(reading, place_of(node, name), key + "." + name, problem, remedy);
+  };
+  const bool injects = given(node, "injection");
+  if (injects != given(node, "at")) {
+    if (injects) {
+      refuse("at", "is missing", "give the point of the injection, such as at = [0, -5]");
+    } else {
+      refuse("at", "belongs to an injection", "add injection, or leave it out");
+    }
+    return;
+  }
+  for (const char* source : {"rain", "injection"}) {
+    if (!given(node, source)) continue;
+    for (const char* name : {"rain", "table", "level", "sides", "along", "flooded"}) {
+      if (given(node, name) && name != std::string_view(source))
+        refuse(name, fmt::format("{} is given too", source),
+               "give one of them, or a second [[water]]");
     }
     if (!reading.model.flow)
-      add_fault(reading, find(node, "rain")->place, key + ".rain",
-                "belongs to water that flows through joints", "add [flow], or leave it out");
+      refuse(source, "belongs to water that flows through joints", "add [flow], or leave it out");
     return;
   }
   if (!reading.model.flow && !given(node, "table") && !given(node, "level")) {

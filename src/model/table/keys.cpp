@@ -178,11 +178,13 @@ constexpr std::array water_keys{
     Key{"table", at<&Water::table>, polyline, otherwise("none; either this or level"), "Its level from left to right; joints and faces below carry its pressure; joints and faces beyond its ends are dry. With [flow] only faces outside the joints: ground under open water, walls of flooded openings."},
     Key{"level", at<&Water::level>, number(D::length), otherwise("none; either this or table"), "With [flow]: its level where it acts along a line in the rock alone, such as that of a drain."},
     Key{"rain", at<&Water::rain>, number(D::velocity, above(0)), otherwise("none; in place of table and level"), "With [flow]: rain on the ground under the open sky, such as \"20 mm/h\": joints take it in as far as they can, the rest runs off."},
+    Key{"injection", at<&Water::injection>, number(D::discharge, above(0)), otherwise("none; in place of table and level"), "With [flow]: what a borehole injects into the joints, for each metre of thickness."},
+    Key{"at", at<&Water::at>, point, otherwise("required with injection"), "Where the injection is; it goes into the crossing or end of joints nearest to this point, as drawn."},
     Key{"sides", at<&Water::sides>, words_of(side_names), otherwise("none"), "With [flow]: sides of the box round the model along which the rock has its head; there water flows in and out. Sides with a boundary are impermeable otherwise."},
     Key{"along", at<&Water::along>, polyline, otherwise("none"), "With [flow]: a line that has its head where it meets joints, such as a row of drain holes."},
     Key{"flooded", at<&Water::flooded>, name_list, initial, "Names of the openings that are full of water, too; the others are dry."},
     Key{"unit_weight", at<&Water::unit_weight>, number(D::unit_weight, above(0)), initial, "Weight of water per volume."},
-    Key{"history", at<&Water::history>, file, otherwise("constant from the start"), "CSV file of time and rise of the table (m), of rain of time and factor, linear between its rows."},
+    Key{"history", at<&Water::history>, file, otherwise("constant from the start"), "CSV file of time and rise of the table (m), of rain and injections of time and factor, linear between its rows."},
 };
 
 constexpr std::array shaking_keys{

@@ -180,6 +180,7 @@ const DimensionInfo& info(Dimension dimension) {
       DimensionInfo{"a second moment of area", "m4", "3.9e-5 or \"3900 cm4\"", 4, 0, 0, 0, false},
       DimensionInfo{"a moment", "N m", "120e3 or \"120 kN m\"", 2, 1, -2, 0, false},
       DimensionInfo{"a viscosity", "Pa s", "1e-3 or \"1 mPa s\"", -1, 1, -1, 0, false},
+      DimensionInfo{"a discharge per metre", "m2/s", "1e-4 or \"1e-4 m2/s\"", 2, 0, -1, 0, false},
   };
   return table[static_cast<std::size_t>(dimension)];
 }

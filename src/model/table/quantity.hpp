@@ -32,6 +32,7 @@ enum class Dimension {
   second_moment,    ///< of an area, m4
   moment,           ///< N m
   viscosity,        ///< Pa s
+  discharge,        ///< m2/s: of a joint, per metre of thickness
 };
 
 struct DimensionInfo {
