@@ -26,20 +26,6 @@ Mesh mesh_of(const Meshes& m, std::size_t i) {
   return mesh;
 }
 
-/// Stresses xx, yy, xy per strains xx, yy and 2 xy.
-Eigen::Matrix3d plane_stiffness(const ZoneMaterial& rock) {
-  const auto [lambda, mu] = rock.elastic;
-  Eigen::Matrix3d c;
-  c << lambda + 2.0 * mu, lambda, 0.0, lambda, lambda + 2.0 * mu, 0.0, 0.0, 0.0, mu;
-  if (!rock.foliation || !rock.foliation->elastic) return c;
-  const TransverseElasticity& e = *rock.foliation->elastic;
-  const auto [x, y] = rock.foliation->along;
-  c << e.tt, e.tn, 0.0, e.tn, e.nn, 0.0, 0.0, 0.0, e.shear;
-  Eigen::Matrix3d in;  // strains in the axes of the foliation
-  in << x * x, y * y, x * y, y * y, x * x, -x * y, -2.0 * x * y, 2.0 * x * y, x * x - y * y;
-  return in.transpose() * c * in;
-}
-
 /// Square of the highest frequency of a pair by itself, with its lumped masses, 1/s2.
 double highest_square(const ZoneModel& model, const Meshes& m, std::size_t p,
                       const ZoneMaterial& rock, double density) {
@@ -71,7 +57,8 @@ double highest_square(const ZoneModel& model, const Meshes& m, std::size_t p,
     mean += shape.volume * (strains[q].row(0) + strains[q].row(1));
   }
   mean /= volumes[0] + volumes[1];
-  const Eigen::Matrix3d c = plane_stiffness(rock);
+  const PlaneStiffness stiffness = plane_stiffness(rock);
+  const Eigen::Map<const Eigen::Matrix3d> c(stiffness.front().data());  // symmetric
   Matrix k = Matrix::Zero();
   for (std::size_t q = 0; q < strains.size(); ++q) {
     Strains b = strains[q];
@@ -254,7 +241,8 @@ void evaluate_piece(const ZoneModel& model, const BlockSet& b, double h, Zones& 
   BeamState& state = all.piece[q];
   const auto [outer, inner] = model.pair[p];
   const BeamCorners x = corners_of(b.meshes, model.pair[p], all.place);
-  const BeamResult r = evaluate_beam(piece.shape, model.strength[piece.strength], x, state);
+  const BeamResult r = evaluate_beam(piece.shape, model.strength[piece.strength], x, state,
+                                     model.residual[piece.strength]);
   const double change = replace_force(b, h, all, outer, {r.force[0], r.force[1], r.force[2]}) +
                         replace_force(b, h, all, inner, {Vec2{}, Vec2{}, r.force[3]});
   const double mean = state.forces.axial / piece.area,
@@ -324,6 +312,78 @@ void evaluate_group(const ZoneModel& model, const BlockSet& b, const State& s, d
       take_elastic(r, at, model, b, h, all, p);
     }
   }
+}
+
+/// Viscous forces of pair p with the viscosity eta.
+void set_viscous_forces(const ZoneModel& model, const BlockSet& b, double eta, Zones& all,
+                        std::size_t p) {
+  const auto [one, other] = model.pair[p];
+  if (eta == 0.0) {
+    for (const std::uint32_t z : model.pair[p])
+      if (z != no_partner) all.viscous[z] = {};
+    return;
+  }
+  if (model.is_piece(p)) {
+    const std::uint32_t q = model.piece_of_pair[p];
+    const BeamCorners f = viscous_forces(model.piece[q].shape, all.piece[q],
+                                         corners_of(b.meshes, model.pair[p], all.place),
+                                         corners_of(b.meshes, model.pair[p], all.rate), eta);
+    all.viscous[one] = {f[0], f[1], f[2]};
+    all.viscous[other] = {Vec2{}, Vec2{}, f[3]};
+    return;
+  }
+  std::array<ZoneShape, 2> shape{model.shape[one]};
+  std::array<std::array<Vec2, 3>, 2> x{at_corners(b.meshes, all.place, one)},
+      v{at_corners(b.meshes, all.rate, one)};
+  if (other != no_partner) {
+    shape[1] = model.shape[other];
+    x[1] = at_corners(b.meshes, all.place, other);
+    v[1] = at_corners(b.meshes, all.rate, other);
+  }
+  const ZoneMaterial& rock =
+      model.material[static_cast<std::size_t>(b.material[model.pair_block[p]])];
+  const std::array<std::array<Vec2, 3>, 2> f = viscous_forces(shape, rock, x, v, eta);
+  all.viscous[one] = f[0];
+  if (other != no_partner) all.viscous[other] = f[1];
+}
+
+/// What the viscous forces of pair p do with the velocities of its nodes, W.
+double viscous_power(const ZoneModel& model, const BlockSet& b, const Zones& all, std::size_t p) {
+  double power = 0.0;
+  for (const std::uint32_t z : model.pair[p]) {
+    if (z == no_partner) continue;
+    const std::array<Vec2, corners_of_zone> v = at_corners(b.meshes, all.rate, z);
+    for (std::size_t k = 0; k < corners_of_zone; ++k) power += dot(all.viscous[z][k], v[k]);
+  }
+  return power;
+}
+
+/// The viscous forces of the velocities that have moved the nodes, and what those before have
+/// dissipated by the displacements of both steps around them, each by half.
+void evaluate_viscosity(const ZoneModel& model, const BlockSet& b, const State& s,
+                        const std::vector<double>& viscosity, double h, Zones& all) {
+  const auto eta = [&](std::size_t i) {
+    return viscosity.empty() || !b.is_meshed(i) ? 0.0 : viscosity[i];
+  };
+  bool any = !all.viscous.empty();
+  for (std::size_t i = 0; i < viscosity.size() && !any; ++i) any = eta(i) > 0.0;
+  if (!any) return;
+  all.viscous.resize(model.shape.size());
+  all.damped.resize(model.pair.size(), 0.0);
+  all.damped_due.resize(model.pair.size(), 0.0);
+  constexpr std::size_t cost = 150;  // ns
+  parallel_for(
+      model.pair.size(),
+      [&](std::size_t p) {
+        const std::size_t i = model.pair_block[p];
+        if (s.alive[i] == 0) return;
+        const double before = viscous_power(model, b, all, p);
+        set_viscous_forces(model, b, eta(i), all, p);
+        const double due = -0.5 * h * viscous_power(model, b, all, p);
+        all.damped[p] += all.damped_due[p] - 0.5 * h * before;
+        all.damped_due[p] = due;
+      },
+      cost);
 }
 
 /// u of the zone that wet[q] is the first entry of, Pa.
@@ -479,6 +539,18 @@ void change_lining(ZoneModel& zones, const Model& model, const BlockSet& b, std:
   find_squares_of(zones, b, i);
 }
 
+namespace {
+
+/// Of pair p, which begins.
+void begin_viscosity(const ZoneModel& model, std::size_t p, Zones& zones) {
+  if (zones.viscous.empty()) return;
+  for (const std::uint32_t z : model.pair[p])
+    if (z != no_partner) zones.viscous[z] = {};
+  zones.damped_due[p] = 0.0;
+}
+
+}  // namespace
+
 void begin_lining(const ZoneModel& model, const BlockSet& b, const State& s, std::size_t i,
                   Zones& zones) {
   place_nodes(b, s.position, zones.place, i, i + 1);
@@ -488,6 +560,7 @@ void begin_lining(const ZoneModel& model, const BlockSet& b, const State& s, std
         beam_at_start(corners_of(b.meshes, model.pair[p], zones.place));
     for (const std::uint32_t z : model.pair[p]) zones.force[z] = {};
     zones.stored[p] = zones.stored_between[p] = 0.0;
+    begin_viscosity(model, p, zones);
   }
 }
 
@@ -516,18 +589,21 @@ bool begin_fill(const ZoneModel& model, const BlockSet& b, const State& s, std::
       zones.yielding[z] = 0;
     }
     zones.stored[p] = zones.stored_between[p] = 0.0;
+    begin_viscosity(model, p, zones);
   }
   return true;
 }
 
 void evaluate_zones(const ZoneModel& model, const BlockSet& b, const State& s,
-                    const PoreWater& water, double h, Zones& zones) {
+                    const PoreWater& water, double h, Zones& zones,
+                    const std::vector<double>& viscosity) {
   if (model.pair.empty()) return;
   place_all_nodes(b, s, zones);
   change_pores(model, b, s, water, zones);
   parallel_for(
       model.group.size(), [&](std::size_t g) { evaluate_group(model, b, s, h, zones, g); },
       cost_of_pairs);
+  evaluate_viscosity(model, b, s, viscosity, h, zones);
 }
 
 void start_zones(const ZoneModel& model, const BlockSet& b, const State& s, double h,
@@ -542,6 +618,7 @@ void start_zones(const ZoneModel& model, const BlockSet& b, const State& s, doub
       for (std::size_t k = 0; k < corners_of_zone; ++k) power += dot(zones.force[z][k], v[k]);
     }
     zones.stored_between[p] = zones.stored[p] + 0.5 * h * power;
+    if (!zones.viscous.empty()) zones.damped_due[p] = -0.5 * h * viscous_power(model, b, zones, p);
   }
 }
 
@@ -556,6 +633,7 @@ void set_zone_forces(const ZoneModel& model, const BlockSet& b, const Zones& zon
       for (std::uint32_t q = model.around_begin[j]; q < model.around_begin[j + 1]; ++q) {
         const std::uint32_t corner = model.around[q];
         sum += zones.force[corner / 3][corner % 3];
+        if (!zones.viscous.empty()) sum += zones.viscous[corner / 3][corner % 3];
       }
       forces.modes.set(b.bending.modes() + j, sum);
       m.add(common, j, sum);
@@ -577,6 +655,10 @@ double stored_in_zones(const ZoneModel& model, const Zones& zones, std::size_t i
 
 double dissipated_in_zones(const Zones& zones) {
   return ordered_sum(zones.dissipated.size(), [&](std::size_t p) { return zones.dissipated[p]; });
+}
+
+double damped_in_zones(const Zones& zones) {
+  return ordered_sum(zones.damped.size(), [&](std::size_t p) { return zones.damped[p]; });
 }
 
 double work_of_pores(const Zones& zones) {
