@@ -126,10 +126,10 @@ PlaneStiffness plane_stiffness(const ZoneMaterial& rock) {
                            {y * y, x * x, -x * y},
                            {-2.0 * x * y, 2.0 * x * y, x * x - y * y}}};
   PlaneStiffness turned{};
-  for (std::size_t i = 0; i < 3; ++i) {
-    for (std::size_t j = 0; j < 3; ++j) {
-      for (std::size_t k = 0; k < 3; ++k) {
-        for (std::size_t l = 0; l < 3; ++l) turned[i][j] += in[k][i] * c[k][l] * in[l][j];
+  for (std::size_t i = 0; i < c.size(); ++i) {
+    for (std::size_t j = 0; j < c.size(); ++j) {
+      for (std::size_t k = 0; k < c.size(); ++k) {
+        for (std::size_t l = 0; l < c.size(); ++l) turned[i][j] += in[k][i] * c[k][l] * in[l][j];
       }
     }
   }

@@ -369,7 +369,8 @@ void expect_every_stage_key(const Model& m) {
   EXPECT_EQ(m.stages[0].ratio, 1e-4);
   EXPECT_EQ(m.stages[0].duration, 60.0);
   EXPECT_EQ(m.stages[0].damping.mass, 2.0);
-  EXPECT_EQ(m.stages[0].damping.rayleigh->fraction, 0.05);
+  EXPECT_EQ(m.solver.damping.rayleigh->fraction, 0.05);
+  EXPECT_FALSE(m.stages[0].damping.rayleigh);  // it has adaptive damping
   EXPECT_EQ(m.materials[0].damping, 0.2);
   EXPECT_EQ(m.materials[0].rayleigh->fraction, 0.03);
   EXPECT_EQ(m.materials[0].rayleigh->frequency, 2.0);
