@@ -279,7 +279,7 @@ TEST(StageResume, ResumesToTheSameBitsWithZones) {
     model.replace(at, 14, "duration = 9.0");
   expect_resumed(model);
   // With viscous forces, which the next step needs.
-  model.insert(model.find("[joints.j]"), "rayleigh = { fraction = 0.02, frequency = 5 }\n");
+  model.insert(model.find("[joints.j]"), "rayleigh = { fraction = 0.002, frequency = 50 }\n");
   expect_resumed(model);
 }
 
@@ -291,8 +291,8 @@ TEST(StageResume, ResumesToTheSameBitsWithLinings) {
       "size = 0.5\ncompressive_strength = 2e6\ntensile_strength = 2e5\n"
       "residual = { tensile_strength = 1e4 }\n"
       "[[boundary]]\ntype = 'fixed'\nstiffness = 1e11\nalong = [[0, 0], [0, 0.3]]\n"
-      "[[load]]\npoint = [3, 0.15]\nforce = [0, 2e3]\n[[stage]]\nduration = 0.04\n"
-      "[output]\nevery = 0.01\n");
+      "[[load]]\npoint = [3, 0.15]\nforce = [0, 2e4]\n[[stage]]\nduration = 0.004\n"
+      "[output]\nevery = 0.001\n");
 }
 
 /// Fill in lifts, placed in the stage before the last and excavated in that.
