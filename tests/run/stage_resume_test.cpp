@@ -277,7 +277,6 @@ TEST(StageResume, ResumesToTheSameBitsWithZones) {
   model += "[zones]\nsize = 2.0\n";
   for (std::size_t at = 0; (at = model.find("duration = 2.0\n", at)) != std::string::npos;)
     model.replace(at, 14, "duration = 9.0");
-  expect_resumed(model);
   // With viscous forces, which the next step needs.
   model.insert(model.find("[joints.j]"), "rayleigh = { fraction = 0.002, frequency = 50 }\n");
   expect_resumed(model);
@@ -291,7 +290,7 @@ TEST(StageResume, ResumesToTheSameBitsWithLinings) {
       "size = 0.5\ncompressive_strength = 2e6\ntensile_strength = 2e5\n"
       "residual = { tensile_strength = 1e4 }\n"
       "[[boundary]]\ntype = 'fixed'\nstiffness = 1e11\nalong = [[0, 0], [0, 0.3]]\n"
-      "[[load]]\npoint = [3, 0.15]\nforce = [0, 2e4]\n[[stage]]\nduration = 0.004\n"
+      "[[load]]\npoint = [3, 0.15]\nforce = [0, 2e4]\n[[stage]]\nduration = 0.002\n"
       "[output]\nevery = 0.001\n");
 }
 
