@@ -58,7 +58,7 @@ std::vector<NmTime> times_of(const PlotArguments& args, const Columns& c) {
 /// The sections of a lining at a time; none before it has been installed.
 NmPoints points_at(const Columns& c, const std::string& lining, const NmTime& at,
                    const Model& model) {
-  NmPoints points{at.name, {}, {}};
+  NmPoints points{at.name, {}, {}, {}};
   std::string material;
   for (std::size_t r = 0; r < c.time->values.size(); ++r) {
     const bool now = std::abs(c.time->values[r] - at.time) <= 1e-9 * std::max(1.0, at.time);
@@ -67,6 +67,7 @@ NmPoints points_at(const Columns& c, const std::string& lining, const NmTime& at
     material = c.material->text(r);
   }
   points.strength = strength_outline(model, lining, material);
+  points.residual = strength_outline(model, lining, material, true);
   return points;
 }
 
@@ -101,7 +102,8 @@ Trouble write_points(const std::vector<NmPanel>& panels, const std::string& path
   for (const NmPanel& panel : panels) {
     for (const NmPoints& at : panel.times) {
       for (const auto& [what, points] :
-           {std::pair{"section", &at.sections}, std::pair{"strength", &at.strength}}) {
+           {std::pair{"section", &at.sections}, std::pair{"strength", &at.strength},
+            std::pair{"residual", &at.residual}}) {
         for (const Vec2 p : *points)
           csv.add(panel.lining).add(at.name).add(what).add(p.x).add(p.y).end();
       }

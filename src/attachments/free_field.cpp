@@ -104,6 +104,7 @@ Id nearest_block(const Side& side, double height) {
 /// Adds a cell of the rock of block i, on top; its stiffness is that of the wave speeds that the
 /// boundary gives, if any.
 void add_cell(FreeFieldColumn& c, const BlockSet& b, Id i, const Boundary& boundary) {
+  c.block.push_back(i);
   c.density.push_back(b.mass[i] / b.volume[i]);
   if (boundary.wave_speeds) {
     const Vec2 speed = *boundary.wave_speeds;
@@ -113,6 +114,8 @@ void add_cell(FreeFieldColumn& c, const BlockSet& b, Id i, const Boundary& bound
     c.mu.push_back(b.lame_mu[i]);
     c.lambda.push_back(b.lame_lambda[i]);
   }
+  c.softer.push_back({c.mu.back() / b.lame_mu[i],
+                      p_modulus(c, c.mu.size() - 1) / (b.lame_lambda[i] + 2.0 * b.lame_mu[i])});
 }
 
 /// The column beside a side, at rest.
@@ -155,6 +158,14 @@ Vec2 FreeFieldColumn::traction(const std::vector<Vec2>& nodes, double y) const {
   return outward * Vec2{lambda[k] * strain.y, mu[k] * strain.x};
 }
 
+Vec2 FreeFieldColumn::viscous_traction(const std::vector<double>& eta,
+                                       const std::vector<Vec2>& nodes, double y) const {
+  const std::size_t k = cell_at(y);
+  const Vec2 rate = (nodes[k + 1] - nodes[k]) / cell;
+  return (outward * eta[block[k]]) *
+         Vec2{softer[k].y * lambda[k] * rate.y, softer[k].x * mu[k] * rate.x};
+}
+
 double FreeField::largest_step() const {
   double step = std::numeric_limits<double>::infinity();
   for (const FreeFieldColumn& c : columns) {
@@ -183,51 +194,108 @@ FreeField attach_free_field(const Model& model, const BlockSet& b, const Dashpot
   return field;
 }
 
+namespace {
+
+/// Of the block beside cell k.
+double value_of(const std::vector<double>* values, const FreeFieldColumn& c, std::size_t k,
+                double otherwise) {
+  return values == nullptr || values->empty() ? otherwise : (*values)[c.block[k]];
+}
+
+/// One direction of a column: (m_k + h d_k/2 + h C) v+ = (m_k - h d_k/2) v- + h f, with the
+/// dashpots d and the viscosities c of the cells between nodes, by elimination from the bottom up.
+struct Chain {
+  std::vector<double> left, right, between;  ///< [nodes], [nodes], [cells] h c
+  /// The bottom has the velocity v, whatever acts on it.
+  void hold_bottom(double v) {
+    left[1] += between[0];
+    right[0] = v;
+    right[1] += between[0] * v;
+    left[0] = 1.0;
+    between[0] = 0.0;
+  }
+  void solve() {
+    const std::size_t top = between.size();
+    for (std::size_t k = 0; k < top; ++k) {
+      left[k] += between[k];
+      left[k + 1] += between[k];
+    }
+    for (std::size_t k = 0; k < top; ++k) {
+      const double part = between[k] / left[k];
+      left[k + 1] -= part * between[k];
+      right[k + 1] += part * right[k];
+    }
+    right[top] /= left[top];
+    for (std::size_t k = top; k-- > 0;) right[k] = (right[k] + between[k] * right[k + 1]) / left[k];
+  }
+};
+
+/// Forces, masses and mass-proportional damping (kg/s) of the nodes, m2.
+struct ColumnNodes {
+  std::vector<Vec2> force;
+  std::vector<double> mass, decay;
+};
+ColumnNodes nodes_of(const FreeFieldColumn& c, const FreeFieldDrive& drive) {
+  const std::size_t nodes = c.density.size() + 1;
+  ColumnNodes n{std::vector<Vec2>(nodes), std::vector<double>(nodes), std::vector<double>(nodes)};
+  for (std::size_t k = 0; k + 1 < nodes; ++k) {
+    const Vec2 stress = across(c, c.moved, k);
+    const double half = 0.5 * c.density[k] * c.cell,
+                 decay = half * value_of(drive.decay, c, k, drive.mass_damping);
+    n.force[k] += stress;
+    n.force[k + 1] -= stress;
+    for (const std::size_t at : {k, k + 1}) {
+      n.mass[at] += half;
+      n.decay[at] += decay;
+    }
+  }
+  for (std::size_t k = 0; k < nodes; ++k) n.force[k] -= n.mass[k] * drive.frame;
+  return n;
+}
+
+/// The column a step later. Its bottom is damped by its dashpot alone, or moves with the ground.
+void advance(const FreeFieldColumn& c, const FreeFieldDrive& drive, double h, double h_new,
+             FreeFieldColumn& to) {
+  const ColumnNodes n = nodes_of(c, drive);
+  const std::size_t nodes = n.mass.size();
+  for (double Vec2::*of : {&Vec2::x, &Vec2::y}) {
+    const bool along_x = of == &Vec2::x;
+    const auto modulus = [&](std::size_t k) { return along_x ? c.mu[k] : p_modulus(c, k); };
+    Chain chain{std::vector<double>(nodes), std::vector<double>(nodes),
+                std::vector<double>(nodes - 1)};
+    for (std::size_t k = 0; k + 1 < nodes; ++k) {
+      const double eta = value_of(drive.viscosity, c, k, 0.0);
+      if (eta > 0.0) chain.between[k] = h * eta * c.softer[k].*of * modulus(k) / c.cell;
+    }
+    for (std::size_t k = 0; k < nodes; ++k) {
+      const double before = c.velocity[k].*of;
+      double damper = n.decay[k], force = n.force[k].*of;
+      if (k == 0) {
+        const double outgoing = std::sqrt(c.density[0] * modulus(0));
+        damper += outgoing;
+        force += outgoing * drive.twice_incoming.*of;
+      } else if (before != 0.0) {
+        force -= std::copysign(drive.local_damping * std::abs(force), before);
+      }
+      chain.left[k] = n.mass[k] + 0.5 * h * damper;
+      chain.right[k] = (n.mass[k] - 0.5 * h * damper) * before + h * force;
+    }
+    if (!drive.lets_waves_in) chain.hold_bottom(drive.ground.*of);
+    chain.solve();
+    for (std::size_t k = 0; k < nodes; ++k) {
+      to.velocity[k].*of = chain.right[k];
+      to.moved[k].*of += h_new * chain.right[k];
+    }
+  }
+}
+
+}  // namespace
+
 std::vector<FreeFieldColumn> next_columns(const std::vector<FreeFieldColumn>& columns,
                                           const FreeFieldDrive& drive, double h_old, double h_new) {
   std::vector<FreeFieldColumn> next = columns;
-  const double h = 0.5 * (h_old + h_new), mass_damping = 0.5 * drive.mass_damping * h;
-  for (std::size_t q = 0; q < columns.size(); ++q) {
-    const FreeFieldColumn& c = columns[q];
-    FreeFieldColumn& to = next[q];
-    const std::size_t top = c.density.size();
-    for (std::size_t k = 0; k <= top; ++k) {
-      Vec2 force;
-      double mass = 0.0, damper_x = 0.0, damper_y = 0.0;
-      if (k < top) {
-        force += across(c, c.moved, k);
-        mass += 0.5 * c.density[k] * c.cell;
-      }
-      if (k > 0) {
-        force -= across(c, c.moved, k - 1);
-        mass += 0.5 * c.density[k - 1] * c.cell;
-      }
-      if (k == 0) {
-        if (!drive.lets_waves_in) {
-          to.velocity[0] = drive.ground;
-          to.moved[0] += h_new * drive.ground;
-          continue;
-        }
-        damper_x = std::sqrt(c.density[0] * c.mu[0]);
-        damper_y = std::sqrt(c.density[0] * p_modulus(c, 0));
-        force += Vec2{damper_x * drive.twice_incoming.x, damper_y * drive.twice_incoming.y};
-      }
-      force -= mass * drive.frame;
-      const Vec2 v = c.velocity[k];
-      if (k > 0) {  // the bottom is damped by its dashpot
-        const auto damped = [&](double f, double along) {
-          return f - (along == 0.0 ? 0.0 : std::copysign(drive.local_damping * std::abs(f), along));
-        };
-        force = {damped(force.x, v.x), damped(force.y, v.y)};
-      }
-      const auto kicked = [&](double before, double f, double damper) {
-        const double half = 0.5 * h * damper / mass;
-        return ((1.0 - mass_damping - half) * before + h * f / mass) / (1.0 + mass_damping + half);
-      };
-      to.velocity[k] = {kicked(v.x, force.x, damper_x), kicked(v.y, force.y, damper_y)};
-      to.moved[k] += h_new * to.velocity[k];
-    }
-  }
+  for (std::size_t q = 0; q < columns.size(); ++q)
+    advance(columns[q], drive, 0.5 * (h_old + h_new), h_new, next[q]);
   return next;
 }
 

@@ -8,8 +8,9 @@
 //  s_xy = mu du_x/dy,   s_yy = (lambda + 2 mu) du_y/dy,   s_xx = lambda du_y/dy.
 //
 // rho D a = s(above) - s(below) at each node, with half of that mass at the free top and at the
-// bottom. At the bottom a dashpot, rho c (2 v_in - v), lets the incoming wave in and the outgoing
-// wave out; or the bottom moves with the ground.
+// bottom. The rock of a cell has the viscosity and the mass-proportional damping of the block
+// beside it. At the bottom a dashpot, rho c (2 v_in - v), lets the incoming wave in and the
+// outgoing wave out; or the bottom moves with the ground.
 #pragma once
 
 #include <vector>
@@ -24,12 +25,18 @@ struct FreeFieldColumn {
   double cell = 0.0;                        ///< D, m
   double outward = 1.0;                     ///< x of the model's outward normal at that side
   std::vector<double> density, lambda, mu;  ///< [cells]
-  std::vector<Vec2> moved, velocity;        ///< [cells + 1] u at n, m; v at n - 1/2, m/s
+  std::vector<Id> block;                    ///< [cells] of the side whose rock it is
+  std::vector<Vec2> softer;  ///< [cells] mu and lambda + 2 mu over those of the rock, less than 1
+                             ///< where joints, which have no viscosity, make it slower
+  std::vector<Vec2> moved, velocity;  ///< [cells + 1] u at n, m; v at n - 1/2, m/s
 
   /// Interpolates u or v between the nodes, at height y.
   Vec2 at(const std::vector<Vec2>& nodes, double y) const;
   /// Traction on a face with the model's outward normal, Pa, for these displacements.
   Vec2 traction(const std::vector<Vec2>& nodes, double y) const;
+  /// The same of the viscosity eta of blocks, for these velocities.
+  Vec2 viscous_traction(const std::vector<double>& eta, const std::vector<Vec2>& nodes,
+                        double y) const;
   std::size_t cell_at(double y) const;
 };
 
@@ -39,7 +46,10 @@ struct FreeFieldDrive {
   Vec2 twice_incoming;         ///< 2 v_in at n, m/s
   Vec2 ground;                 ///< velocity of the ground at n + 1/2, m/s
   Vec2 frame;  ///< m/s2: acceleration of the frame; all masses feel its opposite as inertia force
-  double mass_damping = 0.0;   ///< coefficient of mass-proportional damping, 1/s, as for the blocks
+  double mass_damping = 0.0;  ///< coefficient of mass-proportional damping, 1/s, as for the blocks
+  const std::vector<double>*decay = nullptr,
+        *viscosity = nullptr;  ///< Masses::decay, in place of mass_damping, and Masses::viscosity;
+                               ///< null or empty: none
   double local_damping = 0.0;  ///< beta, as for the blocks
 };
 
@@ -60,7 +70,8 @@ FreeField attach_free_field(const Model& model, const BlockSet& blocks, const Da
                             double step);
 
 /// The columns at n + 1 (velocities at n + 1/2): v+ = ((1 - a h/2) v- + h f/m)/(1 + a h/2), with h
-/// the mean of both steps; the dashpot at the bottom is centred.
+/// the mean of both steps; the dashpot at the bottom is centred, and the viscous stresses are those
+/// of v+, as in blocks.
 std::vector<FreeFieldColumn> next_columns(const std::vector<FreeFieldColumn>& columns,
                                           const FreeFieldDrive& drive, double h_old, double h_new);
 

@@ -72,8 +72,9 @@ struct BlockSet {
   std::vector<double> mass;                ///< [nb] kg
   std::vector<double> damping;  ///< [nb] fraction of critical damping of the block's lowest own
                                 ///< mode
-  std::vector<double> centroid_x, centroid_y;  ///< [nb] at the start, m
-  std::vector<double> smallest_edge;           ///< [nb] m
+  std::vector<std::optional<Rayleigh>> rayleigh;  ///< [nb] of its material
+  std::vector<double> centroid_x, centroid_y;     ///< [nb] at the start, m
+  std::vector<double> smallest_edge;              ///< [nb] m
   std::vector<double> radius;    ///< [nb] largest distance of a vertex from the centroid, m
   std::vector<double> inradius;  ///< [nb] half the smallest width of the outer ring, m
   std::vector<Index> material;   ///< [nb]

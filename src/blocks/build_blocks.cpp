@@ -216,6 +216,7 @@ void reserve(BlockSet& b, const std::vector<BlockPolygon>& polygons) {
                        &b.centroid_x, &b.centroid_y, &b.smallest_edge, &b.radius, &b.inradius}) {
     values->reserve(nb);
   }
+  b.rayleigh.reserve(nb);
   b.fixed.reserve(nb);
   b.material.reserve(nb);
   b.vertex_begin.reserve(nb + 1);
@@ -299,6 +300,7 @@ BlockSet build_blocks(const Model& model, const PolygonSet& polygons) {
     b.area.push_back(m.area);
     b.mass.push_back(mass);
     b.damping.push_back(material.damping);
+    b.rayleigh.push_back(material.rayleigh);
     b.centroid_x.push_back(m.centroid.x);
     b.centroid_y.push_back(m.centroid.y);
     b.inradius.push_back(lining != nullptr ? 0.5 * lining->drawn_thickness()

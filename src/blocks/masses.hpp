@@ -27,6 +27,8 @@ struct Masses {
                      ///< empty where none is damped
   std::vector<double> viscosity;  ///< [nb] eta: viscous stress over elastic stress rate, s; empty
                                   ///< where no block has any
+  std::vector<double> decay;   ///< [nb] coefficient of mass-proportional damping, 1/s; empty: all
+                               ///< have that of Damping::mass_damping()
   std::vector<double> raised;  ///< [nb] factor of mass scaling on the masses; empty: none is raised
 };
 
@@ -36,6 +38,11 @@ Masses given_masses(const BlockSet& blocks);
 /// Fills node_inverse, point_inverse and edge_inverse. Call again whenever the masses of the nodes
 /// change.
 void fill_point_masses(Masses& masses, const BlockSet& blocks);
+
+/// Coefficient of mass-proportional damping of block i, 1/s.
+inline double mass_damping_of(const Masses& masses, const Damping& damping, std::size_t i) {
+  return masses.decay.empty() ? damping.mass_damping() : masses.decay[i];
+}
 
 /// Inertial mass of block i as a whole, kg: more than that of its weight where inertia has been
 /// raised. (For `consistent` from M^-1 for a uniform acceleration: the cover is centred on the

@@ -43,6 +43,8 @@ std::vector<std::uint8_t> change_properties(BlockSet& b, const Model& model,
       if (b.is_lining(i) && linings[static_cast<std::size_t>(b.lining[i])] == 0) continue;
       if (!reach.has(Vec2{b.centroid_x[i], b.centroid_y[i]} + b.origin)) continue;
       b.material[i] = change.row;
+      b.damping[i] = model.materials[static_cast<std::size_t>(change.row)].damping;
+      b.rayleigh[i] = model.materials[static_cast<std::size_t>(change.row)].rayleigh;
       std::fill(changed.begin() + b.vertex_begin[i], changed.begin() + b.vertex_begin[i + 1],
                 std::uint8_t{1});
     }

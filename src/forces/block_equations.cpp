@@ -176,7 +176,7 @@ std::uint64_t equations_hash(const StiffnessInputs& w, std::size_t i) {
   Hash hash;
   for (const std::vector<double>& mass : w.masses.node) hash.add(mass[i]);
   for (const double number :
-       {w.damping.local, w.damping.mass_damping(), b.lame_lambda[i], b.lame_mu[i]})
+       {w.damping.local, mass_damping_of(w.masses, w.damping, i), b.lame_lambda[i], b.lame_mu[i]})
     hash.add(number);
   hash.add(w.masses.viscosity.empty() ? 0.0 : w.masses.viscosity[i]);
   hash.add(w.masses.mode_damping[0].empty() ? 0.0 : w.masses.mode_damping[0][i]);

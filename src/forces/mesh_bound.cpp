@@ -82,6 +82,7 @@ MeshBound mesh_bound(const StiffnessInputs& w, std::size_t i) {
     at.yy += w.springs.kyy[q];
   }
   const double inertia = 1.0 / w.masses.mode_inverse[i], raised = inertia / b.mass[i];
+  const double viscosity = w.masses.viscosity.empty() ? 0.0 : w.masses.viscosity[i];
   MeshBound bound;
   double of_contacts = 0.0, of_boundaries = 0.0, of_bolts = 0.0, largest = 0.0;
   for (std::size_t j = 0; j < m.nodes_of(i); ++j) {
@@ -89,7 +90,8 @@ MeshBound mesh_bound(const StiffnessInputs& w, std::size_t i) {
     const double contact = j < corners ? contacts[j].largest() / mass : 0.0,
                  boundary = j < corners ? boundaries[j].largest() / mass : 0.0,
                  bolt = bolts[j].largest() / mass;
-    if (j < corners) bound.dashpots = std::max(bound.dashpots, dashpots[j].largest() / mass);
+    const double dashpot = j < corners ? dashpots[j].largest() / mass : 0.0;
+    bound.dashpots = std::max(bound.dashpots, dashpot + viscosity * own);
     if (own + contact + boundary + bolt <= largest) continue;
     largest = own + contact + boundary + bolt;
     of_contacts = contact;

@@ -15,7 +15,8 @@ namespace edda {
 
 struct MeshBound {
   double square = 0.0;    ///< omega_max^2, 1/s2
-  double dashpots = 0.0;  ///< largest c_j/m_j at that node, 1/s
+  double dashpots = 0.0;  ///< largest of the dashpots and the viscosity of zones at a node,
+                          ///< c_j/m_j + eta w_j^2, 1/s
   Id contact = no_id;     ///< the stiffest face at that node
   double of_contacts = 0.0, of_boundaries = 0.0, of_bolts = 0.0;  ///< parts of `square`
 };

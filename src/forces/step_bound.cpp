@@ -10,8 +10,7 @@
 namespace edda {
 namespace {
 
-double not_beyond_mass_damping(double step, const Damping& damping) {
-  const double mass_damping = damping.mass_damping();
+double not_beyond_mass_damping(double step, double mass_damping) {
   return mass_damping > 0.0 ? std::min(step, 1.0 / mass_damping) : step;
 }
 
@@ -65,7 +64,7 @@ double lower_estimate(const BlockEquations<Matrix>& q, const Damping& damping) {
     const double c = dashpots ? eigenvalue_bound(q.dashpots, mass) : 0.0;
     h = std::max(h, root_of_step(k, c, 0.0, 1.0));
   }
-  return not_beyond_mass_damping(h, damping);
+  return h;
 }
 
 /// The largest h for which A(h) = M + h D/2 - h C/2 - h^2 K/4 has no negative eigenvalue. Then the
@@ -97,14 +96,14 @@ double critical_step_of(const BlockEquations<Matrix>& q, const Damping& damping)
       if (converged) break;
     }
   }
-  return not_beyond_mass_damping(h, damping);
+  return h;
 }
 
 /// The step that the bound of a meshed block allows.
 double mesh_step(const MeshBound& bound, const Damping& damping) {
   const double k = (1.0 + damping.local) * bound.square;
   if (!(k > 0.0)) return std::numeric_limits<double>::infinity();
-  return not_beyond_mass_damping(root_of_step(k, bound.dashpots, 0.0, 1.0), damping);
+  return root_of_step(k, bound.dashpots, 0.0, 1.0);
 }
 
 /// Calls body(equations) with those of block i, in the matrices that it needs.
@@ -136,12 +135,13 @@ class BlockSteps {
     if (now == 0 || now != known_.equations_hash[i]) {
       known_.equations_hash[i] = now;
       if (w_.blocks.is_meshed(i)) {
-        known_.estimate[i] = known_.exact[i] = mesh_step(mesh_bound(w_, i), w_.damping);
+        known_.estimate[i] = known_.exact[i] = damped(mesh_step(mesh_bound(w_, i), w_.damping), i);
         return known_.exact[i];
       }
       with_equations(w_, i, [&](const auto& q) {
-        known_.estimate[i] = lower_estimate(q, w_.damping);
-        known_.exact[i] = known_.estimate[i] < limit ? critical_step_of(q, w_.damping) : unknown;
+        known_.estimate[i] = damped(lower_estimate(q, w_.damping), i);
+        known_.exact[i] =
+            known_.estimate[i] < limit ? damped(critical_step_of(q, w_.damping), i) : unknown;
       });
     }
     return known_.estimate[i] < limit ? exact(i) : known_.estimate[i];
@@ -149,8 +149,8 @@ class BlockSteps {
   /// The exact step; call below() of this block first.
   double exact(std::size_t i) {
     if (!is_known(i)) {
-      known_.exact[i] =
-          with_equations(w_, i, [&](const auto& q) { return critical_step_of(q, w_.damping); });
+      known_.exact[i] = damped(
+          with_equations(w_, i, [&](const auto& q) { return critical_step_of(q, w_.damping); }), i);
     }
     return known_.exact[i];
   }
@@ -159,6 +159,9 @@ class BlockSteps {
 
  private:
   static constexpr double unknown = -1.0;
+  double damped(double step, std::size_t i) const {
+    return not_beyond_mass_damping(step, mass_damping_of(w_.masses, w_.damping, i));
+  }
   const StiffnessInputs& w_;
   StepCache& known_;
 };

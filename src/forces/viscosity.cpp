@@ -24,29 +24,50 @@ double lowest_frequency(const BlockSet& b, const Masses& masses, std::size_t i) 
   return std::sqrt(std::max(solver.eigenvalues()[0], 0.0));
 }
 
-void fill_viscosity(Masses& masses, const BlockSet& b, const Damping& damping) {
-  const bool elastic =
-      std::all_of(b.damping.begin(), b.damping.end(), [](double zeta) { return zeta == 0.0; });
-  masses.viscosity.clear();
-  for (std::vector<double>& rate : masses.mode_damping) rate.clear();
-  if (damping.rayleigh ? damping.rayleigh->fraction == 0.0 : elastic) return;
+namespace {
+
+/// Of the pieces of block i, a lining, each by itself, 1/s.
+double highest_frequency(const ZoneModel& zones, const BlockSet& b, std::size_t i) {
+  const auto first = zones.square.begin();
+  return std::sqrt(*std::max_element(first + b.meshes.begin[i], first + b.meshes.begin[i + 1]));
+}
+
+}  // namespace
+
+void fill_viscosity(Masses& masses, const BlockSet& b, const Damping& damping,
+                    const ZoneModel& zones) {
+  const auto rayleigh = [&](std::size_t i) -> const std::optional<Rayleigh>& {
+    return damping.rayleigh_with(b.rayleigh[i]);
+  };
+  const auto eta = [&](std::size_t i) {
+    if (rayleigh(i)) return rayleigh(i)->stiffness();
+    if (!b.is_meshed(i)) return 2.0 * b.damping[i] / lowest_frequency(b, masses, i);
+    const bool vibrates = b.is_lining(i) && damping.adaptive == 0.0;
+    return vibrates ? 2.0 * b.damping[i] / highest_frequency(zones, b, i) : 0.0;
+  };
   masses.viscosity.assign(b.size(), 0.0);
+  masses.decay.assign(b.size(), 0.0);
+  for (std::vector<double>& rate : masses.mode_damping)
+    rate.assign(b.mode_places() == 0 ? 0 : in_groups(b.size()), 0.0);
   parallel_for(b.size(), [&](std::size_t i) {
-    if (b.is_meshed(i)) return;
-    masses.viscosity[i] = damping.rayleigh ? damping.rayleigh->stiffness()
-                                           : 2.0 * b.damping[i] / lowest_frequency(b, masses, i);
-  });
-  if (b.mode_places() == 0) return;
-  for (std::vector<double>& rate : masses.mode_damping) rate.assign(in_groups(b.size()), 0.0);
-  parallel_for(b.size(), [&](std::size_t i) {
-    if (b.is_meshed(i)) return;
+    masses.viscosity[i] = eta(i);
+    masses.decay[i] = damping.mass_damping(b.rayleigh[i]);
+    if (b.mode_places() == 0 || b.is_meshed(i)) return;
     const std::array<double, bendings + 1> along = stiffness_along(b.bending, b.modes(i), i);
     for (std::size_t k = 0; k <= bendings; ++k) {
       const double square = std::max(along[k], 0.0) * masses.mode_inverse[i];
-      masses.mode_damping[k][i] = damping.rayleigh ? damping.rayleigh->stiffness() * square
-                                                   : 2.0 * b.damping[i] * std::sqrt(square);
+      masses.mode_damping[k][i] =
+          rayleigh(i) ? rayleigh(i)->stiffness() * square : 2.0 * b.damping[i] * std::sqrt(square);
     }
   });
+  const auto absent = [](double value) { return value == 0.0; };
+  if (std::all_of(masses.viscosity.begin(), masses.viscosity.end(), absent)) {
+    masses.viscosity.clear();
+    for (std::vector<double>& rate : masses.mode_damping) rate.clear();
+  }
+  const double all = damping.mass_damping();
+  if (std::all_of(masses.decay.begin(), masses.decay.end(), [&](double a) { return a == all; }))
+    masses.decay.clear();
 }
 
 }  // namespace edda

@@ -3,6 +3,7 @@
 
 #include "blocks/block_set.hpp"
 #include "blocks/masses.hpp"
+#include "zones/zone_set.hpp"
 
 namespace edda {
 
@@ -11,9 +12,12 @@ namespace edda {
 double lowest_frequency(const BlockSet& blocks, const Masses& masses, std::size_t i);
 
 /// Fills Masses::viscosity, eta = 2 zeta/w with zeta of BlockSet::damping and w the block's lowest
-/// frequency; with Rayleigh damping, its stiffness-proportional part instead. The same for the
-/// modes of blocks that bend, Masses::mode_damping, each with its own frequency. Meshed blocks
-/// have none: it would damp the waves in them. Call again whenever masses or damping change.
-void fill_viscosity(Masses& masses, const BlockSet& blocks, const Damping& damping);
+/// frequency; with Rayleigh damping, its stiffness-proportional part instead, and Masses::decay for
+/// the other part. The same for the modes of blocks that bend, Masses::mode_damping, each with its
+/// own frequency. Linings have zeta at the highest frequency of their pieces, but not with adaptive
+/// damping; other meshed blocks only Rayleigh's: zeta of zones would damp the waves in them. Call
+/// again whenever masses or damping change.
+void fill_viscosity(Masses& masses, const BlockSet& blocks, const Damping& damping,
+                    const ZoneModel& zones = {});
 
 }  // namespace edda

@@ -92,7 +92,7 @@ bool assemble_row(ImplicitSolver& s, const ImplicitScene& scene, const ImplicitS
     add(sb, sb, spring.shear_b);
   });
   s.stiffest[row] = own.diagonal().maxCoeff();
-  s.mass[i].add_to(own, 2.0 / (h * h) + 2.0 * settings.mass_damping / h);
+  s.mass[i].add_to(own, 2.0 / (h * h) + 2.0 * settings.mass_damping(scene.masses, i) / h);
   s.matrix.at(row, s.matrix.slot(row, row)) += own;
   return known;
 }
@@ -159,13 +159,14 @@ double measure_residual(ImplicitSolver& s, const ImplicitScene& scene,
   const BlockSet& b = scene.blocks;
   s.by_faces.assign(b.size(), 0.0);
   add_sizes_of_forces(faces, b, s.by_faces);
-  const double h = settings.step, a = settings.mass_damping, balance = settings.balance;
+  const double h = settings.step, balance = settings.balance;
   const double gravity = norm(scene.gravity);
   s.residual.resize(s.matrix.lines());
   s.error.assign(s.block_of.size(), 0.0);
   s.carried.resize(s.block_of.size());
   parallel_for(s.block_of.size(), [&](std::size_t row) {
     const Id i = s.block_of[row];
+    const double a = settings.mass_damping(scene.masses, i);
     BodyColumn moved = (2.0 / (h * h) + 2.0 * a / h) * s.matrix.part(s.moved, row);
     if (settings.dynamic) moved -= (2.0 / h + a) * column_of(b, state.velocity, i);
     const BodyColumn force = column_of(b, forces, i), inertia = s.mass[i] * moved;

@@ -104,7 +104,7 @@ double dissipated(const ImplicitSolver& s, const ImplicitScene& scene,
   }
   const double h = settings.step;
   const BodyColumn after = 2.0 / h * step - (settings.dynamic ? 1.0 : 0.0) * velocity;
-  sum += settings.mass_damping * step.dot(s.mass[i] * after);
+  sum += settings.mass_damping(scene.masses, i) * step.dot(s.mass[i] * after);
   if (!settings.dynamic)
     sum += 0.5 * after.dot(s.mass[i] * after) + 0.5 * velocity.dot(s.mass[i] * velocity);
   return sum;

@@ -35,11 +35,15 @@ struct ImplicitSettings {
   double step = 0.0;    ///< h, s
   bool dynamic = true;  ///< false: static analysis, velocities are dropped at the start of each
                         ///< step
-  double mass_damping = 0.0;        ///< a of C = a M, 1/s
+  Damping damping;
   double contact_damping = 0.0;     ///< zeta
   double displacement_limit = 0.0;  ///< m, of any vertex in one step
   double balance = 1e-3;  ///< residual, as a part of the forces, after the last iteration; ten
                           ///< times that for a single block
+  /// a of C = a M of block i, 1/s.
+  double mass_damping(const Masses& masses, std::size_t i) const {
+    return mass_damping_of(masses, damping, i);
+  }
 };
 
 /// Result of an attempt at a step.

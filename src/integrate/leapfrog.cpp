@@ -315,11 +315,12 @@ void undo_step(State& s, double h_new, const BodyVectors& old_velocity) {
 }
 
 void start_velocities(State& s, const BlockSet& b, const Masses& masses, const BodyVectors& force,
-                      double h, double mass_damping) {
+                      double h, const Damping& damping) {
   parallel_for(b.size(), [&](std::size_t i) {
     if (b.fixed[i] || !s.alive[i]) return;
     const BodyVector a = accelerations(masses, b, i, vector_of(b, force, i));
-    add(-0.5 * h * (a - mass_damping * vector_of(b, s.velocity, i)), b, s.velocity, i);
+    add(-0.5 * h * (a - mass_damping_of(masses, damping, i) * vector_of(b, s.velocity, i)), b,
+        s.velocity, i);
   });
 }
 

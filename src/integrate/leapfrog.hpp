@@ -85,6 +85,6 @@ void undo_step(State& state, double h_new, const BodyVectors& old_velocity);
 
 /// Start: v_{-1/2} = v_0 - (f/m - a v_0) h/2, with the mass-proportional damping a, 1/s.
 void start_velocities(State& state, const BlockSet& blocks, const Masses& masses,
-                      const BodyVectors& force, double h, double mass_damping = 0.0);
+                      const BodyVectors& force, double h, const Damping& damping = {});
 
 }  // namespace edda

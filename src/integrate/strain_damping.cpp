@@ -176,7 +176,7 @@ void find_responses(StrainDamping& d, const BlockSet& b, const Masses& masses, C
   d.work.resize(b.size(), 0.0);
   parallel_for(b.size(), [&](std::size_t i) {
     if (!changed(i)) return;
-    const bool damped = b.fixed[i] == 0 && masses.viscosity[i] > 0.0;
+    const bool damped = b.fixed[i] == 0 && !b.is_meshed(i) && masses.viscosity[i] > 0.0;
     const std::array<double, 6> w =
         damped ? response(b, masses, i, h_of(i)) : std::array<double, 6>{};
     for (std::size_t e = 0; e < 6; ++e) d.matrix[e][i] = w[e];

@@ -91,9 +91,10 @@ struct Material {
   bool pore_pressure = true;  ///< of the water in the pores of its zones
   double damping =
       0.5;  ///< strain damping, as a fraction of critical in the lowest mode of a block
+  std::optional<Rayleigh> rayleigh{};  ///< in place of `damping` and of Damping::rayleigh
   bool deforms_as(const Material& other) const {
     return density == other.density && young == other.young && poisson == other.poisson &&
-           foliation == other.foliation && damping == other.damping &&
+           foliation == other.foliation && damping == other.damping && rayleigh == other.rayleigh &&
            pore_pressure == other.pore_pressure && deformation == other.deformation;
   }
   /// Whether rock of this material may become rock of another: only its strength in zones changes.
@@ -326,6 +327,11 @@ struct BoltPattern {
 
 /// [[lining]]: shotcrete, concrete or steel sets, a chain of beams along a line. Per metre of
 /// thickness of the model, but area and inertia, which are those of one steel set.
+/// Strengths of a section of a lining once it has yielded; empty: as before.
+struct LiningResidual {
+  std::optional<double> compressive_strength{}, tensile_strength{};  ///< Pa
+};
+
 struct Lining {
   std::string name;
   std::string opening;                         ///< on whose outline it is, or
@@ -339,6 +345,7 @@ struct Lining {
   // Strength; empty: it stays elastic.
   std::optional<double> compressive_strength;  ///< Pa
   std::optional<double> tensile_strength;      ///< Pa; empty: 0, of a steel set as in compression
+  std::optional<LiningResidual> residual;      ///< empty: the strength does not fall
   std::optional<double> plastic_moment;        ///< N m, of a steel set; empty: of the solid section
   std::optional<double> size;                  ///< m, of its pieces; empty: "auto"
   Index interface = none;                      ///< law of its faces

@@ -34,6 +34,7 @@ struct Rayleigh {
   /// Coefficients of the mass, 1/s, and of the stiffness of the blocks, s.
   double mass() const { return fraction * 2.0 * std::numbers::pi * frequency; }
   double stiffness() const { return fraction / (2.0 * std::numbers::pi * frequency); }
+  friend bool operator==(const Rayleigh&, const Rayleigh&) = default;
 };
 
 struct Damping {
@@ -46,8 +47,16 @@ struct Damping {
   /// The value of `adaptive` with which a model reaches equilibrium in the fewest steps.
   static constexpr double for_equilibrium = 0.8;
   std::optional<Rayleigh> rayleigh{};  ///< in place of the materials' damping
+  /// The Rayleigh damping in force where the material has `own`, which goes first but on the way to
+  /// an equilibrium.
+  const std::optional<Rayleigh>& rayleigh_with(const std::optional<Rayleigh>& own) const {
+    return own && adaptive == 0.0 ? own : rayleigh;
+  }
   /// Coefficient of mass-proportional damping, with that of Rayleigh damping, 1/s.
-  double mass_damping() const { return mass + (rayleigh ? rayleigh->mass() : 0.0); }
+  double mass_damping(const std::optional<Rayleigh>& own = {}) const {
+    const std::optional<Rayleigh>& in_force = rayleigh_with(own);
+    return mass + (in_force ? in_force->mass() : 0.0);
+  }
 };
 
 struct Solver {

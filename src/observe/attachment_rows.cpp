@@ -120,8 +120,10 @@ std::string linings_rows(const Simulation& sim) {
         const double moment = moment_at(sim, i, p, end);
         csv.add(0.0 - state.forces.axial).add(moment);
         csv.add(state.forces.shear(state.length));
-        csv.add(utilisation(model.strength[piece.strength], state.forces.axial, moment));
-        csv.add(state.hinge[end]).add(material).end();
+        csv.add(utilisation(
+            strength_at(state, end, model.strength[piece.strength], model.residual[piece.strength]),
+            state.forces.axial, moment));
+        csv.add(state.hinge[end]).add(material).add(state.yielded[end]).end();
       }
     }
   }

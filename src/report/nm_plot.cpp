@@ -65,10 +65,13 @@ void draw_panel(Canvas& canvas, const Box& frame, const NmPanel& panel, double f
   canvas.line({frame.low.x, chart.at(0.0, 0.0).y}, {frame.high.x, chart.at(0.0, 0.0).y},
               2.0 * rule);
   for (std::size_t k = 0; k < panel.times.size(); ++k) {
-    std::vector<Vec2> round = scaled(panel.times[k].strength);
-    if (round.empty()) continue;
-    round.push_back(round.front());
-    chart.draw_line(round, rim, colour_of(panel, k));
+    for (const auto& [points, width] : {std::pair{&panel.times[k].strength, rim},
+                                        std::pair{&panel.times[k].residual, 0.4 * rim}}) {
+      std::vector<Vec2> round = scaled(*points);
+      if (round.empty()) continue;
+      round.push_back(round.front());
+      chart.draw_line(round, width, colour_of(panel, k));
+    }
   }
   for (std::size_t k = 0; k < panel.times.size(); ++k) {
     for (const Vec2 p : scaled(panel.times[k].sections))

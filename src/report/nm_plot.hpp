@@ -16,6 +16,7 @@ struct NmPoints {
   std::string name;            ///< such as the stage
   std::vector<Vec2> sections;  ///< thrust (N, positive in compression) and moment (N m)
   std::vector<Vec2> strength;  ///< a line once round it; empty: none
+  std::vector<Vec2> residual;  ///< a thinner one
 };
 
 struct NmPanel {

@@ -186,6 +186,9 @@ constexpr std::array linings{
     C{"hinge_rotation", "rad",
       "Plastic rotation of that end so far, positive where it opens the side at the wall."},
     C{"material", "text", "Name of the material that the lining has by then (stage.change)."},
+    C{"yielded", "1",
+      "1: the section has yielded so far, and utilisation is that of its residual strength, if it "
+      "has one; 0: not yet."},
 };
 
 constexpr std::array stages{

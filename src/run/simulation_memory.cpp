@@ -29,6 +29,9 @@ void list_zones(Archive& a, Zones& zones) {
   a("zones.stored", zones.stored);
   a("zones.stored_between", zones.stored_between);
   a("zones.dissipated", zones.dissipated);
+  list_numbers(a, "zones.viscous", zones.viscous);
+  a("zones.damped", zones.damped);
+  a("zones.damped_due", zones.damped_due);
   a("zones.pore", zones.pore);
   a("zones.swelling", zones.swelling);
   a("zones.pore_work", zones.pore_work);
@@ -216,6 +219,10 @@ void examine(Examiner& j, const Simulation& s, const FaceStates& faces) {
   j.sized("zones.yielding", zones.yielding, many);
   for (const auto* of : {&zones.stored, &zones.stored_between, &zones.dissipated})
     j.sized("zones", *of, pairs);
+  const bool viscous = !zones.viscous.empty();
+  j.sized("zones.viscous", zones.viscous, viscous ? many : 0);
+  for (const auto* of : {&zones.damped, &zones.damped_due})
+    j.sized("zones", *of, viscous ? pairs : 0);
   const std::size_t wet = s.attached.loads.wet_zones.empty() ? 0 : many;
   for (const auto* of : {&zones.pore, &zones.swelling, &zones.pore_work, &zones.pore_work_due})
     j.sized("zones", *of, wet);
@@ -309,7 +316,7 @@ std::string recall(Simulation& sim, const Record& record) {
   set_face_dashpots(sim.motion.contacts, sim.motion.laws, sim.motion.damping.contact);
   complete_points(sim.point_contacts, sim.scene->blocks, sim.motion.pose, sim.motion.laws);
   fill_point_masses(sim.motion.masses, sim.scene->blocks);
-  fill_viscosity(sim.motion.masses, sim.scene->blocks, sim.motion.damping);
+  fill_viscosity(sim.motion.masses, sim.scene->blocks, sim.motion.damping, sim.scene->zones);
   put_faces(sim, faces);
   return j.flaw();
 }

@@ -30,6 +30,10 @@ double mass_damping(const Simulation& sim) {
 }
 
 void mass_damping_of_blocks(const Simulation& sim, std::vector<double>& damping) {
+  if (sim.motion.damping.adaptive == 0.0) {
+    damping = sim.motion.masses.decay;
+    return;
+  }
   const double most = most_adaptive(sim);
   damping.resize(sim.scene->blocks.size());
   for (std::size_t i = 0; i < damping.size(); ++i)

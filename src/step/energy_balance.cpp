@@ -75,7 +75,8 @@ EnergyBalance energy_balance(const Simulation& sim, const FaceMeasures& faces) {
   l.fracture = c.removed_fracture + over_faces(&FaceWork::fracture);
   l.damping = c.removed_damping + over_faces(&FaceWork::damping) +
               over_faces(&FaceWork::damping_due) +
-              ordered_sum(damped.size(), [&](std::size_t i) { return damped[i]; });
+              ordered_sum(damped.size(), [&](std::size_t i) { return damped[i]; }) +
+              damped_in_zones(sim.motion.zones);
   l.transfer = c.removed_transfer + over_faces(&FaceWork::transfer);
   l.step_change = -accounts.step_change_energy;
   l.external = accounts.external_work + work_of_pores(sim.motion.zones);

@@ -53,6 +53,7 @@ DashpotDrive dashpot_drive(const Simulation& sim, Vec2 of_ground,
                            const std::vector<FreeFieldColumn>& next) {
   const Dashpots& dashpots = sim.attached.dashpots;
   const FreeField& free_field = sim.attached.free_field;
+  const std::vector<double>& viscosity = sim.motion.masses.viscosity;
   DashpotDrive drive;
   const std::size_t points = dashpots.points.size();
   std::vector<Vec2> of_row(sim.scene->model.boundaries.size());
@@ -71,7 +72,10 @@ DashpotDrive dashpot_drive(const Simulation& sim, Vec2 of_ground,
     const FreeFieldColumn& then = next[static_cast<std::size_t>(q)];
     const double y = free_field.height[p];
     drive.reference[p] = 0.5 * (now.at(now.velocity, y) + then.at(then.velocity, y));
-    drive.push[p] = free_field.face[p] * now.traction(now.moved, free_field.middle[p]);
+    const double middle = free_field.middle[p];
+    drive.push[p] = free_field.face[p] * now.traction(now.moved, middle);
+    if (!viscosity.empty())
+      drive.push[p] += free_field.face[p] * now.viscous_traction(viscosity, then.velocity, middle);
   }
   return drive;
 }
@@ -89,6 +93,8 @@ std::vector<FreeFieldColumn> next_free_field(const Simulation& sim, Vec2 of_grou
   drive.ground = of_ground;
   drive.frame = loads_at(model, sim.attached.loads, sim.motion.state.time).frame;
   drive.mass_damping = mass_damping(sim);
+  drive.decay = &sim.motion.masses.decay;
+  drive.viscosity = &sim.motion.masses.viscosity;
   drive.local_damping = sim.motion.damping.local;
   return next_columns(free_field.columns, drive, h_old, h_new);
 }

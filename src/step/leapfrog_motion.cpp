@@ -24,7 +24,7 @@ void prepare_damping(const Simulation& sim, double h, DampingOfStep& d) {
   const Masses& masses = sim.motion.masses;
   d.in_force = {mass_damping(sim), sim.motion.damping.local, damped.empty() ? nullptr : &damped,
                 masses.viscosity.empty() ? nullptr : &d.strain};
-  if (sim.motion.damping.adaptive > 0.0) {
+  if (sim.motion.damping.adaptive > 0.0 || !masses.decay.empty()) {
     mass_damping_of_blocks(sim, d.kicks.mass);
     set_kicks(d.kicks, h);
     d.in_force.kicks = &d.kicks;

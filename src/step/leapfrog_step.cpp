@@ -81,7 +81,7 @@ void start_leapfrog(Simulation& sim) {
   own.drive = dashpot_drive(sim, {}, sim.attached.free_field.columns);
   add_all_dashpots(sim, forces, sim.motion.on_dashpots,
                    {0.0, 0.0, nullptr, own.drive.reference, own.drive.push});
-  start_velocities(state, blocks, sim.motion.masses, forces, h, sim.motion.damping.mass_damping());
+  start_velocities(state, blocks, sim.motion.masses, forces, h, sim.motion.damping);
   look_back();
   start_zones(sim.scene->zones, blocks, state, h, sim.motion.zones);
   // The state of the bolts does not go back: their forces at the start do F_0 . (x_0 - x_{-1})/2

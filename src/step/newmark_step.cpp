@@ -115,7 +115,7 @@ ImplicitSettings settings_of(const Simulation& sim) {
   const Damping& damping = sim.motion.damping;
   ImplicitSettings settings;
   settings.dynamic = sim.motion.dynamic;
-  settings.mass_damping = damping.mass_damping();
+  settings.damping = damping;
   settings.contact_damping = damping.contact;
   settings.displacement_limit = sim.scene->displacement_limit;
   // The equilibrium ratio to be reached must lie above what the iterations leave unbalanced.

@@ -57,7 +57,7 @@ void finish_step(Simulation& sim) {
   accounts.steps.largest = std::max(accounts.steps.largest, h);
   accounts.steps.sum += h;
   evaluate_zones(sim.scene->zones, sim.scene->blocks, state, water_in_pores(sim), h,
-                 sim.motion.zones);
+                 sim.motion.zones, sim.motion.masses.viscosity);
 }
 
 std::optional<Failure> inspect(const Simulation& sim) {

@@ -49,7 +49,7 @@ StiffnessInputs stiffness_inputs(const Simulation& sim, const BlockSet& blocks) 
 }
 
 void set_viscosity(Simulation& sim) {
-  fill_viscosity(sim.motion.masses, sim.scene->blocks, sim.motion.damping);
+  fill_viscosity(sim.motion.masses, sim.scene->blocks, sim.motion.damping, sim.scene->zones);
   sim.leapfrog.damping.strain.step = 0.0;
 }
 

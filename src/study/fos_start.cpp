@@ -66,7 +66,6 @@ Damping damping_for_equilibrium(const Damping& own) {
   Damping damping;
   damping.contact = own.contact;
   damping.adaptive = Damping::for_equilibrium;
-  damping.rayleigh = own.rayleigh;
   return damping;
 }
 

@@ -94,13 +94,14 @@ double stored_by(const BeamForces& f, const Stretch& e) {
 
 constexpr double tolerated = 1e-10;  // of a strength
 
-bool exceeds(const SectionStrength& strength, const BeamForces& f) {
-  for (const SectionLimit& s : strength) {
-    for (const double moment : f.moment)
-      if (s.axial * f.axial + s.moment * std::abs(moment) > s.limit) return true;
-  }
-  return false;
+bool exceeds(const SectionStrength& strength, double axial, double moment) {
+  return std::any_of(strength.begin(), strength.end(), [&](const SectionLimit& s) {
+    return s.axial * axial + s.moment * std::abs(moment) > s.limit;
+  });
 }
+
+/// Strengths of the two ends.
+using EndStrengths = std::array<const SectionStrength*, 2>;
 
 /// Roots of the stiffnesses of dl, of b and of dtheta_1 + dtheta_2, the last two over 2^(1/2); c.
 /// With forces divided, and strains multiplied by them elasticity is the identity, and Koiter's
@@ -147,12 +148,12 @@ ReturnedStress return_to_nearest(const Principal& trial, const std::vector<Yield
 }
 
 /// Brings the forces of a piece that is stretched by `trial` back to the strength.
-void flow(const BeamShape& shape, const SectionStrength& strength, const Stretch& trial,
+void flow(const BeamShape& shape, const EndStrengths& strength, const Stretch& trial,
           const BeamForces& before, BeamState& state, BeamResult& result) {
   const Scales by = scales_of(shape, state);
   std::vector<YieldPlane> planes;
-  for (const SectionLimit& s : strength) {
-    for (const std::size_t k : {0u, 1u})
+  for (const std::size_t k : {0u, 1u}) {
+    for (const SectionLimit& s : *strength[k])
       for (const double sign : {-1.0, 1.0}) planes.push_back(scaled(s, by, k, sign));
   }
   const double root = std::sqrt(0.5);
@@ -288,13 +289,20 @@ double change_shape(const BeamShape& from, const BeamShape& to, const BeamCorner
 }
 
 BeamResult evaluate_beam(const BeamShape& shape, const SectionStrength& strength,
-                         const BeamCorners& x, BeamState& state) {
+                         const BeamCorners& x, BeamState& state, const SectionStrength& residual) {
   const BeamForm now = form_of(x);
   const Stretch stretch = stretch_from(state.free, now);
   BeamResult r;
   const BeamForces before = state.forces;
   state.forces = forces_of(shape, state, stretch);
-  if (exceeds(strength, state.forces)) flow(shape, strength, stretch, before, state, r);
+  const EndStrengths ends{&strength_at(state, 0, strength, residual),
+                          &strength_at(state, 1, strength, residual)};
+  std::array<bool, 2> beyond{};
+  for (std::size_t k = 0; k < 2; ++k)
+    beyond[k] = exceeds(*ends[k], state.forces.axial, state.forces.moment[k]);
+  if (beyond[0] || beyond[1]) flow(shape, ends, stretch, before, state, r);
+  for (std::size_t k = 0; k < 2; ++k)
+    if (beyond[k]) state.yielded[k] = 1.0;
   const Stretch elastic = stretch_from(state.free, now);
   std::array<double, measures> slope{state.forces.axial, -state.forces.moment[0],
                                      state.forces.moment[1], 0.0, 0.0};
@@ -309,6 +317,23 @@ BeamResult evaluate_beam(const BeamShape& shape, const SectionStrength& strength
     for (std::size_t c = 0; c < corners_of_beam; ++c) r.force[c] -= slope[m] * g[m][c];
   }
   return r;
+}
+
+BeamCorners viscous_forces(const BeamShape& shape, const BeamState& state, const BeamCorners& x,
+                           const BeamCorners& v, double eta) {
+  const Gradients g = gradients_of(x);
+  std::array<double, measures> rate{};
+  for (std::size_t m = 0; m < measures; ++m) {
+    for (std::size_t c = 0; c < corners_of_beam; ++c) rate[m] += dot(g[m][c], v[c]);
+  }
+  const BeamForces f = forces_of(shape, state, {rate[0], rate[1], rate[2]});
+  const std::array<double, measures> slope{f.axial, -f.moment[0], f.moment[1],
+                                           shape.across * rate[3], shape.across * rate[4]};
+  BeamCorners force{};
+  for (std::size_t m = 0; m < measures; ++m) {
+    for (std::size_t c = 0; c < corners_of_beam; ++c) force[c] -= eta * slope[m] * g[m][c];
+  }
+  return force;
 }
 
 }  // namespace edda

@@ -13,7 +13,8 @@
 // makes the piece exact for forces at its ends. T holds the sections together.
 //
 // Where N and M of a section reach what it can carry, it becomes a plastic hinge: l and theta_k of
-// the form without stress follow the flow that belongs to the strength.
+// the form without stress follow the flow that belongs to the strength. From the step after that it
+// has its residual strength, if there is one.
 #pragma once
 
 #include <array>
@@ -83,6 +84,7 @@ struct BeamState {
   BeamForm free;
   double length = 0.0, curvature = 0.0;  ///< l and c at first, m and 1/m
   std::array<double, 2> hinge{};         ///< plastic rotations of the ends, rad
+  std::array<double, 2> yielded{};       ///< 1: that end has yielded; 0: not yet
   BeamForces forces;                     ///< of the last evaluation
 };
 
@@ -101,8 +103,21 @@ struct BeamResult {
   double stored = 0.0, dissipated = 0.0;
   bool yields = false;
 };
-/// The state becomes that at x.
+/// The state becomes that at x. An end that has yielded before this has the residual strength, if
+/// there is one.
 BeamResult evaluate_beam(const BeamShape& shape, const SectionStrength& strength,
-                         const BeamCorners& x, BeamState& state);
+                         const BeamCorners& x, BeamState& state,
+                         const SectionStrength& residual = {});
+/// Of an end.
+inline const SectionStrength& strength_at(const BeamState& state, std::size_t end,
+                                          const SectionStrength& strength,
+                                          const SectionStrength& residual) {
+  return state.yielded[end] != 0.0 && !residual.empty() ? residual : strength;
+}
+
+/// Forces on its corners, N, of a viscosity eta, s, where they move by v: -eta times the rate at
+/// which the elastic ones would grow.
+BeamCorners viscous_forces(const BeamShape& shape, const BeamState& state, const BeamCorners& x,
+                           const BeamCorners& v, double eta);
 
 }  // namespace edda

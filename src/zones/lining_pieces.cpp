@@ -33,19 +33,22 @@ std::vector<Vec2> drawn_nodes(const Meshes& m) {
   return node;
 }
 
-SectionStrength strength_of(const Model& model, const Lining& lining, const Material& material) {
+SectionStrength strength_of(const Model& model, const Lining& lining, const Material& material,
+                            bool residual) {
   const bool own = lining.compressive_strength.has_value();
-  if (!own && !material.strength) return {};
+  if ((!own && !material.strength) || (residual && !lining.residual)) return {};
   const double compressive = own ? *lining.compressive_strength : material.strength->ucs,
                tensile = own ? lining.tensile_strength.value_or(lining.area ? compressive : 0.0)
                              : material.strength->tension;
+  const LiningResidual after = residual ? *lining.residual : LiningResidual{};
   const double t = lining.drawn_thickness(), area = model.thickness * t * lining.solidity(),
                both = compressive + tensile;
   // The rectangle with that plastic moment under the thrust at which it is largest.
   const double thick = lining.plastic_moment ? 8.0 * *lining.plastic_moment * model.thickness /
                                                    lining.spacing / (both * area)
                                              : t;
-  return rectangle_strength(compressive, tensile, area, thick);
+  return rectangle_strength(after.compressive_strength.value_or(compressive),
+                            after.tensile_strength.value_or(tensile), area, thick);
 }
 
 std::vector<std::pair<std::uint32_t, std::uint32_t>> neighbours(const Mesh& mesh) {
@@ -72,7 +75,8 @@ void set_pieces(ZoneModel& zones, const Model& model, const BlockSet& b, std::si
     piece.shape = beam_shape(section, x, corner_mass(zones, b, p));
     piece.area = section.area;
     piece.modulus = 2.0 * section.inertia / t;
-    zones.strength[piece.strength] = strength_of(model, lining, material);
+    zones.strength[piece.strength] = strength_of(model, lining, material, false);
+    zones.residual[piece.strength] = strength_of(model, lining, material, true);
   }
 }
 
@@ -80,6 +84,7 @@ void add_pieces(ZoneModel& zones, const Model& model, const BlockSet& b, std::si
   zones.piece_of_pair.resize(zones.pair.size(), no_piece);
   const auto strength = static_cast<std::uint32_t>(zones.strength.size());
   zones.strength.emplace_back();
+  zones.residual.emplace_back();
   for (std::uint32_t p = zones.pair_begin[i]; p < zones.pair.size(); ++p) {
     zones.piece_of_pair[p] = static_cast<std::uint32_t>(zones.piece.size());
     LiningPiece piece;

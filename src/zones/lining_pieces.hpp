@@ -16,8 +16,10 @@ BeamCorners corners_of(const Meshes& meshes, const std::array<std::uint32_t, 2>&
 /// Where the mesh nodes are at the start, from the centroids of their blocks, [mesh nodes] m.
 std::vector<Vec2> drawn_nodes(const Meshes& meshes);
 
-/// Of a section of this lining while it is of this material, of the thickness of the model.
-SectionStrength strength_of(const Model& model, const Lining& lining, const Material& material);
+/// Of a section of this lining while it is of this material, of the thickness of the model; the
+/// residual one is empty where the strength does not fall.
+SectionStrength strength_of(const Model& model, const Lining& lining, const Material& material,
+                            bool residual);
 
 /// The triangles 0 and 1, 2 and 3, and so on.
 std::vector<std::pair<std::uint32_t, std::uint32_t>> neighbours(const Mesh& mesh);

@@ -115,6 +115,27 @@ auto on_surface(const ZoneMaterial& rock, double slip, Body body) {
 
 }  // namespace
 
+PlaneStiffness plane_stiffness(const ZoneMaterial& rock) {
+  const auto [lambda, mu] = rock.elastic;
+  if (!rock.foliation || !rock.foliation->elastic)
+    return {{{lambda + 2.0 * mu, lambda, 0.0}, {lambda, lambda + 2.0 * mu, 0.0}, {0.0, 0.0, mu}}};
+  const TransverseElasticity& e = *rock.foliation->elastic;
+  const auto [x, y] = rock.foliation->along;
+  const PlaneStiffness c{{{e.tt, e.tn, 0.0}, {e.tn, e.nn, 0.0}, {0.0, 0.0, e.shear}}};
+  const PlaneStiffness in{{{x * x, y * y, x * y},  // strains in the axes of the foliation
+                           {y * y, x * x, -x * y},
+                           {-2.0 * x * y, 2.0 * x * y, x * x - y * y}}};
+  PlaneStiffness turned{};
+  for (std::size_t i = 0; i < c.size(); ++i) {
+    for (std::size_t j = 0; j < c.size(); ++j) {
+      for (std::size_t k = 0; k < c.size(); ++k) {
+        for (std::size_t l = 0; l < c.size(); ++l) turned[i][j] += in[k][i] * c[k][l] * in[l][j];
+      }
+    }
+  }
+  return turned;
+}
+
 ZoneMaterial zone_material(const Material& m) {
   const double nu = m.poisson, mu = m.young / (2.0 * (1.0 + nu));
   ZoneMaterial made{{2.0 * mu * nu / (1.0 - 2.0 * nu), mu}};

@@ -6,6 +6,7 @@
 // given slip, and what a band dissipates hardly hangs on the size of the zones.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <variant>
 
@@ -33,6 +34,9 @@ inline bool has_strength(const ZoneMaterial& rock) {
   return yields(rock.peak) || (rock.foliation && rock.foliation->strength);
 }
 ZoneMaterial zone_material(const Material& material);
+/// Stresses xx, yy, xy of elastic rock per strains xx, yy and 2 xy in the plane, Pa.
+using PlaneStiffness = std::array<std::array<double, 3>, 3>;
+PlaneStiffness plane_stiffness(const ZoneMaterial& rock);
 inline ZoneMaterial rock_that_yields(const IsotropicElasticity& elastic,
                                      const MohrCoulomb& strength) {
   return {elastic, surface_of(strength)};

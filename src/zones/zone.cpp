@@ -289,6 +289,22 @@ void begin_without_stress(const std::array<ZoneShape, 2>& shape,
   }
 }
 
+namespace {
+
+/// -V P g_k, P = tau F^-T.
+std::array<Vec2, 3> forces_on_nodes(const ZoneShape& shape, const Matrix2& tau, const Matrix2& f) {
+  const Matrix2 in = inverse(f), p = tau * Matrix2{in.xx, in.yx, in.xy, in.yy};
+  const double v = shape.volume;
+  std::array<Vec2, 3> force;
+  for (std::size_t k = 0; k < force.size(); ++k) {
+    const Vec2 g = shape.gradient[k];
+    force[k] = {-v * (p.xx * g.x + p.xy * g.y), -v * (p.yx * g.x + p.yy * g.y)};
+  }
+  return force;
+}
+
+}  // namespace
+
 std::array<ZoneResult, 2> evaluate_zones(const std::array<ZoneShape, 2>& shape,
                                          const ZoneMaterial& material,
                                          const std::array<std::array<Vec2, 3>, 2>& x,
@@ -323,19 +339,53 @@ std::array<ZoneResult, 2> evaluate_zones(const std::array<ZoneShape, 2>& shape,
   for (std::size_t q = 0; q < many; ++q) {
     const double more = pressure + state[q].locked - 0.5 * (s[q].tau.xx + s[q].tau.yy);
     const Matrix2 tau = sum_of(1.0, s[q].tau, more, {});
-    const Matrix2 in = inverse(f[q]), p = tau * Matrix2{in.xx, in.yx, in.xy, in.yy};
     ZoneResult& r = results[q];
     const double v = shape[q].volume, per = 1.0 / determinant(f[q]);
-    for (std::size_t k = 0; k < r.force.size(); ++k) {
-      const Vec2 g = shape[q].gradient[k];
-      r.force[k] = {-v * (p.xx * g.x + p.xy * g.y), -v * (p.yx * g.x + p.yy * g.y)};
-    }
+    r.force = forces_on_nodes(shape[q], tau, f[q]);
     r.stored = v * (s[q].stored + state[q].locked * theta[q]);
     r.dissipated = v * dissipated_by(flow[q], f[q], s[q], state[q]);
     r.stress = {per * tau.xx, per * tau.yy, per * s[q].zz, per * tau.xy};
     r.yielding = flow[q].yielding;
   }
   return results;
+}
+
+std::array<std::array<Vec2, 3>, 2> viscous_forces(const std::array<ZoneShape, 2>& shape,
+                                                  const ZoneMaterial& material,
+                                                  const std::array<std::array<Vec2, 3>, 2>& x,
+                                                  const std::array<std::array<Vec2, 3>, 2>& v,
+                                                  double eta) {
+  const std::size_t many = shape[1].volume > 0.0 ? 2 : 1;
+  const double volume = shape[0].volume + shape[1].volume;
+  std::array<Matrix2, 2> f, rate, tau;
+  std::array<double, 2> swelling{};
+  double mean = 0.0, pressure = 0.0;
+  for (std::size_t q = 0; q < many; ++q) {
+    f[q] = deformation_of(shape[q], x[q]);
+    rate[q] = deformation_of(shape[q], v[q]);
+    const Matrix2 l = rate[q] * inverse(f[q]);
+    swelling[q] = l.xx + l.yy;
+    mean += shape[q].volume / volume * swelling[q];
+  }
+  const PlaneStiffness c = plane_stiffness(material);
+  for (std::size_t q = 0; q < many; ++q) {
+    const Matrix2 r = sum_of(1.0, rate[q], 0.5 * (mean - swelling[q]), f[q]);
+    const double xx = f[q].xx * r.xx + f[q].yx * r.yx, yy = f[q].xy * r.xy + f[q].yy * r.yy,
+                 twice = f[q].xx * r.xy + f[q].yx * r.yy + f[q].xy * r.xx + f[q].yy * r.yx;
+    const auto stress = [&](std::size_t k) {
+      return eta * (c[k][0] * xx + c[k][1] * yy + c[k][2] * twice);
+    };
+    const double off = stress(2);
+    tau[q] = f[q] * Matrix2{stress(0), off, off, stress(1)} *
+             Matrix2{f[q].xx, f[q].yx, f[q].xy, f[q].yy};
+    pressure += shape[q].volume / volume * 0.5 * (tau[q].xx + tau[q].yy);
+  }
+  std::array<std::array<Vec2, 3>, 2> force{};
+  for (std::size_t q = 0; q < many; ++q) {
+    const double more = pressure - 0.5 * (tau[q].xx + tau[q].yy);
+    force[q] = forces_on_nodes(shape[q], sum_of(1.0, tau[q], more, {}), f[q]);
+  }
+  return force;
 }
 
 }  // namespace edda

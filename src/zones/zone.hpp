@@ -83,4 +83,13 @@ std::array<ZoneResult, 2> evaluate_zones(const std::array<ZoneShape, 2>& shape,
                                          const std::array<std::array<Vec2, 3>, 2>& x,
                                          std::array<ZoneState, 2>& state);
 
+/// Forces on their nodes, N, of a viscous stress eta C : dE/dt of the elastic rock, E = (F^T F -
+/// 1)/2, where the nodes move by v; a pair has the mean of its volume strain rates, and of its
+/// pressures.
+std::array<std::array<Vec2, 3>, 2> viscous_forces(const std::array<ZoneShape, 2>& shape,
+                                                  const ZoneMaterial& material,
+                                                  const std::array<std::array<Vec2, 3>, 2>& x,
+                                                  const std::array<std::array<Vec2, 3>, 2>& v,
+                                                  double eta);
+
 }  // namespace edda

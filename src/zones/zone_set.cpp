@@ -8,6 +8,7 @@
 #include "blocks/kinematics.hpp"
 #include "zones/lining_pieces.hpp"
 #include "zones/pairs.hpp"
+#include "zones/zone_viscosity.hpp"
 
 namespace edda {
 namespace {
@@ -24,20 +25,6 @@ Mesh mesh_of(const Meshes& m, std::size_t i) {
     mesh.triangles.push_back(t);
   }
   return mesh;
-}
-
-/// Stresses xx, yy, xy per strains xx, yy and 2 xy.
-Eigen::Matrix3d plane_stiffness(const ZoneMaterial& rock) {
-  const auto [lambda, mu] = rock.elastic;
-  Eigen::Matrix3d c;
-  c << lambda + 2.0 * mu, lambda, 0.0, lambda, lambda + 2.0 * mu, 0.0, 0.0, 0.0, mu;
-  if (!rock.foliation || !rock.foliation->elastic) return c;
-  const TransverseElasticity& e = *rock.foliation->elastic;
-  const auto [x, y] = rock.foliation->along;
-  c << e.tt, e.tn, 0.0, e.tn, e.nn, 0.0, 0.0, 0.0, e.shear;
-  Eigen::Matrix3d in;  // strains in the axes of the foliation
-  in << x * x, y * y, x * y, y * y, x * x, -x * y, -2.0 * x * y, 2.0 * x * y, x * x - y * y;
-  return in.transpose() * c * in;
 }
 
 /// Square of the highest frequency of a pair by itself, with its lumped masses, 1/s2.
@@ -71,7 +58,8 @@ double highest_square(const ZoneModel& model, const Meshes& m, std::size_t p,
     mean += shape.volume * (strains[q].row(0) + strains[q].row(1));
   }
   mean /= volumes[0] + volumes[1];
-  const Eigen::Matrix3d c = plane_stiffness(rock);
+  const PlaneStiffness stiffness = plane_stiffness(rock);
+  const Eigen::Map<const Eigen::Matrix3d> c(stiffness.front().data());  // symmetric
   Matrix k = Matrix::Zero();
   for (std::size_t q = 0; q < strains.size(); ++q) {
     Strains b = strains[q];
@@ -162,13 +150,6 @@ void place_all_nodes(const BlockSet& b, const State& s, Zones& zones) {
   });
 }
 
-/// Those of the nodes of a zone.
-std::array<Vec2, corners_of_zone> at_corners(const Meshes& m, const std::vector<Vec2>& of,
-                                             std::uint32_t z) {
-  const auto& [a, b, c] = m.zone[z];
-  return {of[a], of[b], of[c]};
-}
-
 /// The work h v . (f - f before) of the new forces on zone z, J, which become those in force.
 double replace_force(const BlockSet& b, double h, Zones& all, std::uint32_t z,
                      const std::array<Vec2, corners_of_zone>& force) {
@@ -254,7 +235,8 @@ void evaluate_piece(const ZoneModel& model, const BlockSet& b, double h, Zones& 
   BeamState& state = all.piece[q];
   const auto [outer, inner] = model.pair[p];
   const BeamCorners x = corners_of(b.meshes, model.pair[p], all.place);
-  const BeamResult r = evaluate_beam(piece.shape, model.strength[piece.strength], x, state);
+  const BeamResult r = evaluate_beam(piece.shape, model.strength[piece.strength], x, state,
+                                     model.residual[piece.strength]);
   const double change = replace_force(b, h, all, outer, {r.force[0], r.force[1], r.force[2]}) +
                         replace_force(b, h, all, inner, {Vec2{}, Vec2{}, r.force[3]});
   const double mean = state.forces.axial / piece.area,
@@ -488,6 +470,7 @@ void begin_lining(const ZoneModel& model, const BlockSet& b, const State& s, std
         beam_at_start(corners_of(b.meshes, model.pair[p], zones.place));
     for (const std::uint32_t z : model.pair[p]) zones.force[z] = {};
     zones.stored[p] = zones.stored_between[p] = 0.0;
+    begin_viscosity(model, p, zones);
   }
 }
 
@@ -516,18 +499,21 @@ bool begin_fill(const ZoneModel& model, const BlockSet& b, const State& s, std::
       zones.yielding[z] = 0;
     }
     zones.stored[p] = zones.stored_between[p] = 0.0;
+    begin_viscosity(model, p, zones);
   }
   return true;
 }
 
 void evaluate_zones(const ZoneModel& model, const BlockSet& b, const State& s,
-                    const PoreWater& water, double h, Zones& zones) {
+                    const PoreWater& water, double h, Zones& zones,
+                    const std::vector<double>& viscosity) {
   if (model.pair.empty()) return;
   place_all_nodes(b, s, zones);
   change_pores(model, b, s, water, zones);
   parallel_for(
       model.group.size(), [&](std::size_t g) { evaluate_group(model, b, s, h, zones, g); },
       cost_of_pairs);
+  evaluate_viscosity(model, b, s, viscosity, h, zones);
 }
 
 void start_zones(const ZoneModel& model, const BlockSet& b, const State& s, double h,
@@ -542,6 +528,7 @@ void start_zones(const ZoneModel& model, const BlockSet& b, const State& s, doub
       for (std::size_t k = 0; k < corners_of_zone; ++k) power += dot(zones.force[z][k], v[k]);
     }
     zones.stored_between[p] = zones.stored[p] + 0.5 * h * power;
+    if (!zones.viscous.empty()) zones.damped_due[p] = -0.5 * h * viscous_power(model, b, zones, p);
   }
 }
 
@@ -556,6 +543,7 @@ void set_zone_forces(const ZoneModel& model, const BlockSet& b, const Zones& zon
       for (std::uint32_t q = model.around_begin[j]; q < model.around_begin[j + 1]; ++q) {
         const std::uint32_t corner = model.around[q];
         sum += zones.force[corner / 3][corner % 3];
+        if (!zones.viscous.empty()) sum += zones.viscous[corner / 3][corner % 3];
       }
       forces.modes.set(b.bending.modes() + j, sum);
       m.add(common, j, sum);

@@ -38,7 +38,8 @@ struct ZoneModel {
   // Linings: each piece is the pair of triangles that it consists of.
   std::vector<std::uint32_t> piece_of_pair;  ///< [pairs] or no_piece; empty: no linings
   std::vector<LiningPiece> piece;
-  std::vector<SectionStrength> strength;  ///< [blocks that are linings]
+  std::vector<SectionStrength> strength, residual;  ///< [blocks that are linings]; residual: empty
+                                                    ///< where the strength does not fall
   bool is_piece(std::size_t p) const {
     return !piece_of_pair.empty() && piece_of_pair[p] != no_piece;
   }
@@ -61,6 +62,11 @@ struct Zones {
   std::vector<double> stored_between;         ///< [pairs] J, in the terms of the energy balance:
                                               ///< between the positions before and these
   std::vector<double> dissipated;             ///< [pairs] J, by plastic strain so far
+  // Of the viscosity of the rock (Masses::viscosity); empty where none had any so far.
+  std::vector<std::array<Vec2, 3>> viscous;  ///< [zones] force on its nodes, N
+  std::vector<double> damped, damped_due;    ///< [pairs] J, dissipated by it so far, in the terms
+                                             ///< of the energy balance, and what comes with the
+                                             ///< next step
   // Of the water in pores; empty without any.
   std::vector<double> pore;           ///< [zones] u, Pa, part of ZoneState::locked
   std::vector<double> swelling;       ///< [zones] ln det F
@@ -108,8 +114,11 @@ BeamCorners corners_of_piece(const BlockSet& blocks, const ZoneModel& model, con
 /// they have moved by h v from those of the last evaluation. With forces f = -grad W a leapfrog
 /// keeps, between x_n and x_{n+1}, what linear springs store by x_n K x_{n+1}/2,
 ///   (W_n + W_{n+1})/2 + (f_{n+1} - f_n) . h v/4.
+/// Viscous forces are those of the velocities v: they belong to the next step. viscosity: [nb] eta,
+/// s; empty: none.
 void evaluate_zones(const ZoneModel& model, const BlockSet& blocks, const State& state,
-                    const PoreWater& water, double h, Zones& zones);
+                    const PoreWater& water, double h, Zones& zones,
+                    const std::vector<double>& viscosity = {});
 
 /// The same terms at the start, where velocities are those half a step h (s) before: W + f . h v/2.
 void start_zones(const ZoneModel& model, const BlockSet& blocks, const State& state, double h,
@@ -121,9 +130,10 @@ void set_zone_forces(const ZoneModel& model, const BlockSet& blocks, const Zones
                      Vec2 gravity, BodyVectors& forces, std::size_t begin, std::size_t end);
 
 /// What the zones of block i store in the terms of the energy balance, what all zones have
-/// dissipated so far, and the work of the water in their pores, J.
+/// dissipated so far by yield and by viscosity, and the work of the water in their pores, J.
 double stored_in_zones(const ZoneModel& model, const Zones& zones, std::size_t i);
 double dissipated_in_zones(const Zones& zones);
+double damped_in_zones(const Zones& zones);
 double work_of_pores(const Zones& zones);
 
 /// Mean Cauchy stress of the zones of block i by area: xx, yy, zz, xy, Pa.

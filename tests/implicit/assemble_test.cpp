@@ -89,7 +89,7 @@ TEST(Assemble, ResidualHasTheVelocityAtTheStartOfTheStep) {
   const BodyColumn v = column_of(s.blocks, s.state.velocity, 1);
   const BodyColumn change = (s.residual() - at_rest).head<8>();
   const BodyColumn expected =
-      (2.0 / s.settings.step + s.settings.mass_damping) * (s.solver.mass[1] * v);
+      (2.0 / s.settings.step + s.settings.damping.mass) * (s.solver.mass[1] * v);
   EXPECT_LT((change - expected).norm(), 1e-9 * expected.norm());
   fill_viscosity(s.masses, s.blocks, {});
   s.solver.moved.head<8>() << 1e-7, 2e-7, -1e-7, 0.0, 3e-7, 1e-7, 2e-7, -2e-7;

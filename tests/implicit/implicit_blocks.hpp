@@ -41,7 +41,7 @@ struct ImplicitBlocks {
     pose.x1 = pose.x;
     pose.y1 = pose.y;
     settings.step = 2e-3;
-    settings.mass_damping = 3.0;
+    settings.damping.mass = 3.0;
     settings.contact_damping = 0.1;
     NearEdges near;
     find_faces(contacts, blocks, state, pose, laws, {0.05}, near, {});

@@ -40,7 +40,7 @@ duration = 1.0
     pose.x1 = pose.x;
     pose.y1 = pose.y;
     settings.step = 1e-3;
-    settings.mass_damping = mass_damping;
+    settings.damping.mass = mass_damping;
     settings.displacement_limit = 0.1;
     settings.balance = 1e-9;
   }

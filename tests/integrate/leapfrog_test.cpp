@@ -157,7 +157,7 @@ TEST(Leapfrog, StartsHalfAStepBackWithItsDamping) {
   o.force.x[2][0] = 700.0;
   o.force.y[2][0] = 900.0;
   const double h = 0.01, a = 3.0, mass = o.masses.node[2][0];
-  start_velocities(o.state, o.blocks, o.masses, o.force, h, a);
+  start_velocities(o.state, o.blocks, o.masses, o.force, h, {.mass = a});
   EXPECT_NEAR(o.state.velocity.x[2][0], 1.0 - 0.5 * h * (700.0 / mass - a), 1e-12);
   EXPECT_NEAR(o.state.velocity.y[2][0], -2.0 - 0.5 * h * (900.0 / mass + 2.0 * a), 1e-12);
 }

@@ -86,6 +86,11 @@ TEST(BadModel, UnknownKeys) {
 
 TEST(BadModel, Missing) {
   expect_all({
+      broken("rayleigh", "poisson = 0.25", "poisson = 0.25\nrayleigh = { fraction = 0.02 }", 7,
+             "materials.rock.rayleigh.frequency", "is missing"),
+      broken("rayleigh frequency", "poisson = 0.25",
+             "poisson = 0.25\nrayleigh = { fraction = 0.02, frequency = 0 }", 7,
+             "materials.rock.rayleigh.frequency", "is out of range"),
       broken("young", "young = 20e9\n", "", 3, "materials.rock.young", "is missing: give a stress"),
       broken("poisson", "poisson = 0.25\n", "", 3, "materials.rock.poisson", "is missing"),
       broken("density", "density = 2700.0\n", "", 3, "materials.rock.density", "or unit_weight"),

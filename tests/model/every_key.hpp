@@ -16,6 +16,7 @@ density = 2750
 young = "20 GPa"
 poisson = 0.25
 damping = 0.2
+rayleigh = { fraction = "3 %", frequency = "2 Hz" }
 deformation = "uniform"
 strength = { ucs = "90 MPa", tension = 6e6 }
 [materials."soft clay"]
@@ -308,6 +309,7 @@ material = "rock"
 thickness = "15 cm"
 compressive_strength = "20 MPa"
 tensile_strength = "2 MPa"
+residual = { compressive_strength = "12 MPa", tensile_strength = "0.3 MPa" }
 size = 0.4
 interface = "rough"
 [[lining]]

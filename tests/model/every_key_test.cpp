@@ -271,6 +271,8 @@ void expect_every_lining_key(const Model& m) {
   EXPECT_EQ(shell.solidity(), 1.0);
   EXPECT_EQ(shell.compressive_strength, 20e6);
   EXPECT_EQ(shell.tensile_strength, 2e6);
+  EXPECT_EQ(shell.residual->compressive_strength, 12e6);
+  EXPECT_EQ(shell.residual->tensile_strength, 0.3e6);
   EXPECT_EQ(shell.size, 0.4);
   EXPECT_EQ(m.joints[static_cast<std::size_t>(shell.interface)].name, "rough");
   const Lining& sets = m.linings[1];
@@ -369,8 +371,11 @@ void expect_every_stage_key(const Model& m) {
   EXPECT_EQ(m.stages[0].ratio, 1e-4);
   EXPECT_EQ(m.stages[0].duration, 60.0);
   EXPECT_EQ(m.stages[0].damping.mass, 2.0);
-  EXPECT_EQ(m.stages[0].damping.rayleigh->fraction, 0.05);
+  EXPECT_EQ(m.solver.damping.rayleigh->fraction, 0.05);
+  EXPECT_FALSE(m.stages[0].damping.rayleigh);  // it has adaptive damping
   EXPECT_EQ(m.materials[0].damping, 0.2);
+  EXPECT_EQ(m.materials[0].rayleigh->fraction, 0.03);
+  EXPECT_EQ(m.materials[0].rayleigh->frequency, 2.0);
   EXPECT_EQ(m.stages[0].damping.local, 0.0);
   EXPECT_EQ(m.stages[0].damping.adaptive, 0.8);
   EXPECT_EQ(m.stages[0].damping.contact, 0.2);

@@ -84,7 +84,7 @@ TEST(Columns, KeepTheirNames) {
             "ruptured,dowel_utilisation,dowel_angle\n");
   EXPECT_EQ(header_of(ResultFile::linings),
             "time,lining,piece,distance,x,y,thrust,moment,shear,utilisation,hinge_rotation,"
-            "material\n");
+            "material,yielded\n");
   EXPECT_EQ(header_of(ResultFile::flow), "time,water,inflow\n");
   EXPECT_EQ(header_of(ResultFile::stages),
             "stage,name,until,reached,start,end,steps,ratio,largest_ratio,largest_block,kinetic,"

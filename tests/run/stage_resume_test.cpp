@@ -277,7 +277,21 @@ TEST(StageResume, ResumesToTheSameBitsWithZones) {
   model += "[zones]\nsize = 2.0\n";
   for (std::size_t at = 0; (at = model.find("duration = 2.0\n", at)) != std::string::npos;)
     model.replace(at, 14, "duration = 9.0");
+  // With viscous forces, which the next step needs.
+  model.insert(model.find("[joints.j]"), "rayleigh = { fraction = 0.002, frequency = 50 }\n");
   expect_resumed(model);
+}
+
+/// Linings that crack, and are damped.
+TEST(StageResume, ResumesToTheSameBitsWithLinings) {
+  expect_same_numbers(
+      "gravity = [0, 0]\n[materials.concrete]\ndensity = 2500\nyoung = 3e9\npoisson = 0.2\n"
+      "[joints.j]\nfriction_angle = 30\n[[lining]]\nalong = [[0, 0], [3, 0]]\nthickness = 0.3\n"
+      "size = 0.5\ncompressive_strength = 2e6\ntensile_strength = 2e5\n"
+      "residual = { tensile_strength = 1e4 }\n"
+      "[[boundary]]\ntype = 'fixed'\nstiffness = 1e11\nalong = [[0, 0], [0, 0.3]]\n"
+      "[[load]]\npoint = [3, 0.15]\nforce = [0, 2e4]\n[[stage]]\nduration = 0.002\n"
+      "[output]\nevery = 0.001\n");
 }
 
 /// Fill in lifts, placed in the stage before the last and excavated in that.

@@ -15,7 +15,7 @@ constexpr double density = 2500.0, young = 1e9, poisson = 0.25, height = 24.0, f
 /// A square of rock of eight by eight blocks with glued joints.
 std::string ground(const std::string& sides, bool shear, double end) {
   return "gravity = [0, 0]\n[materials.rock]\ndensity = 2500\nyoung = 1e9\npoisson = 0.25\n"
-         "[joints.j]\ntype = 'glued'\n[contact]\nnormal_stiffness = 5e10\n"
+         "damping = 0\n[joints.j]\ntype = 'glued'\n[contact]\nnormal_stiffness = 5e10\n"
          "[domain]\noutline = [[0, 0], [24, 0], [24, 24], [0, 24]]\n"
          "[[joint_set]]\nangle = 0\nspacing = 3\n[[joint_set]]\nangle = 90\nspacing = 3\n"
          "[[boundary]]\nname = 'base'\nsides = ['bottom']\ntype = 'viscous'\n" +
@@ -105,6 +105,43 @@ TEST(FreeField, ColumnAlone) {
   }
   EXPECT_NEAR(top, 2.0, 0.01);
   for (const Vec2 v : columns[0].velocity) EXPECT_LT(norm(v), 1e-3);
+}
+
+/// A column on ground at rest has the viscosity and the damping in proportion to mass of the block
+/// beside it: sin(pi y/2L) decays by (a/w + eta w)/2 of critical, whatever the step would say.
+TEST(FreeField, ColumnIsDampedAsTheRockBesideIt) {
+  constexpr double modulus = 4e8, a = 0.4, eta = 1e-3, tall = 100.0;
+  const std::size_t cells = 100;
+  FreeFieldColumn column;
+  column.cell = 1.0;
+  column.density.assign(cells, density);
+  column.lambda.assign(cells, modulus);
+  column.mu.assign(cells, modulus);
+  column.block.assign(cells, 1);
+  column.softer.assign(cells, {1.0, 1.0});
+  column.moved.assign(cells + 1, {});
+  for (std::size_t k = 0; k <= cells; ++k)
+    column.velocity.push_back({std::sin(0.5 * std::numbers::pi * double(k) / double(cells)), 0.0});
+  const std::vector<double> decay{9.0, a}, viscosity{9.0, eta};
+  FreeFieldDrive drive;
+  drive.decay = &decay;
+  drive.viscosity = &viscosity;
+  const double w = 0.5 * std::numbers::pi / tall * std::sqrt(modulus / density), h = 5e-4;
+  std::vector<FreeFieldColumn> columns{column};
+  std::vector<double> extremes;
+  double before = 0.0, slope = 0.0;
+  for (double t = 0.0; t < 6.0 * std::numbers::pi / w; t += h) {
+    columns = next_columns(columns, drive, h, h);
+    const double now = columns[0].moved.back().x;
+    if (slope * (now - before) < 0.0) extremes.push_back(before);
+    slope = now - before;
+    before = now;
+  }
+  ASSERT_GE(extremes.size(), 5u);
+  const double swings = double(extremes.size() - 1),
+               fraction = std::log(std::abs(extremes.front() / extremes.back())) /
+                          (swings * std::numbers::pi);
+  EXPECT_NEAR(fraction, 0.5 * (a / w + eta * w), 0.02 * 0.5 * (a / w + eta * w));
 }
 
 }  // namespace

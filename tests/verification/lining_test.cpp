@@ -304,5 +304,113 @@ TEST(Lining, ThreePointCollapse) {
   EXPECT_GT(ready.sim.motion.zones.piece[3].hinge[1], 1e-3);
 }
 
+/// The part of critical with which the end of a cantilever swings once its load is gone, and the
+/// frequency (1/s), from the extremes of its displacement.
+struct Swings {
+  double fraction = 0.0, omega = 0.0, error = 0.0;
+  double damped = 0.0;  ///< J, while it swings
+};
+Swings cantilever_swings(const std::string& damping, const std::string& stage) {
+  const std::string model =
+      "gravity = [0, 0]\n[materials.concrete]\ndensity = 2500\nyoung = 30e9\npoisson = 0.2\n" +
+      damping + "[joints.rough]\nfriction_angle = 30\n" +
+      lining("[[0, -0.15], [6, -0.15]]", "size = 0.5\n") + boundary("[[0, -0.15], [0, 0.15]]") +
+      "[[load]]\nname = 'push'\npoint = [6, 0]\nforce = [0, 1e4]\n"
+      "[[stage]]\nuntil = 'equilibrium'\n"
+      "[[stage]]\ndeactivate = ['push']\nduration = 0.8\n" +
+      stage + "[output]\nevery = 0.001\n";
+  Result<Model> read = read_model_text(model, EDDA_SOURCE_DIR "/scene.toml", {});
+  EXPECT_TRUE(read.ok()) << to_string(read.faults().front());
+  PreparedRun ready = prepare_run(std::move(read.value())).value();
+  std::vector<double> extremes, times;
+  double before = 0.0, slope = 0.0, began = -1.0, damped = 0.0;
+  RunOptions options;
+  options.after_step = [&] {
+    const Simulation& sim = ready.sim;
+    if (sim.motion.damping.adaptive > 0.0) return false;
+    if (began < 0.0) {
+      began = sim.motion.state.time;
+      damped = energy_balance(sim).damping;
+    }
+    const double now = middle(sim, 12).y;
+    if (sim.motion.state.time > began + 0.1 && slope * (now - before) < 0.0) {
+      extremes.push_back(before);
+      times.push_back(sim.motion.state.time);
+    }
+    slope = now - before;
+    before = now;
+    return false;
+  };
+  const Result<Outcome> outcome = run_model(ready, options);
+  EXPECT_TRUE(outcome.ok());
+  EXPECT_GE(extremes.size(), 4u);
+  if (!outcome.ok() || extremes.size() < 4) return {};
+  const double many = double(extremes.size() - 1);
+  return {std::log(std::abs(extremes.front() / extremes.back())) / (many * pi),
+          many * pi / (times.back() - times.front()), outcome.value().energy.error,
+          outcome.value().energy.damping - damped};
+}
+
+/// Rayleigh damping of the concrete, or of the model, and none of both.
+TEST(Lining, RayleighDampingOfACantilever) {
+  const Swings none = cantilever_swings("damping = 0\n", "");
+  EXPECT_LT(std::abs(none.fraction), 3e-3);  // of the higher modes that swing on
+  EXPECT_EQ(none.damped, 0.0);
+  const std::string rayleigh = "rayleigh = { fraction = 0.03, frequency = 4 }";
+  const double ratio = none.omega / (2.0 * pi * 4.0), expected = 0.5 * 0.03 * (ratio + 1.0 / ratio);
+  const Swings own = cantilever_swings(rayleigh + "\n", ""),
+               all = cantilever_swings("", "damping = { " + rayleigh + " }\n");
+  for (const Swings& s : {own, all}) {
+    EXPECT_NEAR(s.fraction, expected, 0.02 * expected);
+    EXPECT_LT(std::abs(s.error), 1e-4);
+  }
+  EXPECT_EQ(own.fraction, all.fraction);
+}
+
+/// Its own damping is a fraction of critical at the highest frequency of a piece: what is slow has
+/// as much less as it is slower.
+TEST(Lining, OwnDampingLeavesSlowMotionAlone) {
+  const Swings s = cantilever_swings("", "");
+  EXPECT_LT(std::abs(s.fraction), 3e-3);
+  EXPECT_GT(s.damped, 0.0);
+  EXPECT_LT(std::abs(s.error), 1e-4);
+}
+
+/// A beam on two supports whose middle is pushed down: the section there cracks at M = f t^2/4 and
+/// falls to that of the residual strengths, and what is released is dissipated.
+TEST(Lining, ThreePointBeamThatCracks) {
+  constexpr double peak = 20e6 * thick * thick / 4.0, after = 4e6 * thick * thick / 4.0;
+  const std::string support = "[[boundary]]\ntype = 'roller'\nstiffness = 1e10\nalong = ";
+  const std::string model = concrete(
+      lining("[[0, -0.15], [4, -0.15]]",
+             "size = 0.5\ncompressive_strength = 20e6\ntensile_strength = 20e6\n"
+             "residual = { compressive_strength = 4e6, tensile_strength = 4e6 }\n") +
+      support + "[[-0.05, -0.15], [0.05, -0.15]]\n" + support + "[[3.95, -0.15], [4.05, -0.15]]\n" +
+      "[[boundary]]\ntype = 'velocity'\nvelocity = [0, -0.02]\nstiffness = 1e10\n"
+      "along = [[1.95, 0.15], [2.05, 0.15]]\n"
+      "[[stage]]\nduration = 1\ndamping = { local = 0.3 }\n");
+  Result<Model> read = read_model_text(model, EDDA_SOURCE_DIR "/scene.toml", {});
+  ASSERT_TRUE(read.ok()) << to_string(read.faults().front());
+  PreparedRun ready = prepare_run(std::move(read.value())).value();
+  double most = 0.0;
+  RunOptions options;
+  options.after_step = [&] {
+    most = std::max(most, std::abs(forces(ready.sim, 3).moment[1]));
+    return false;
+  };
+  const Result<Outcome> outcome = run_model(ready, options);
+  ASSERT_TRUE(outcome.ok());
+  expect_relative({83, "cracks", "moment before", "N m"}, most, peak, 2e-2);
+  const double left =
+      std::max(std::abs(forces(ready.sim, 3).moment[1]), std::abs(forces(ready.sim, 4).moment[0]));
+  expect_relative({83, "cracks", "moment after", "N m"}, left, after, 2e-2);
+  EXPECT_LT(std::abs(outcome.value().energy.error), 1e-3);
+  std::size_t yielded = 0;
+  for (const BeamState& piece : ready.sim.motion.zones.piece)
+    yielded += piece.yielded[0] + piece.yielded[1] > 0.0 ? 1 : 0;
+  EXPECT_GE(yielded, 1u);
+  EXPECT_LE(yielded, 2u);
+}
+
 }  // namespace
 }  // namespace edda::lining_test

@@ -138,5 +138,117 @@ TEST(StrainDamping, KeepsTheMomentumOfACollision) {
   EXPECT_LT(std::abs(account_energy(sim).error), 1e-5);
 }
 
+std::string rayleigh(double fraction, double frequency) {
+  return "rayleigh = { fraction = " + number(fraction) + ", frequency = " + number(frequency) +
+         " }";
+}
+
+TEST(StrainDamping, RayleighsOfAMaterialIsLeastAtItsFrequency) {
+  const double w = shear_frequency;
+  for (const double ratio : {0.5, 3.0}) {
+    const double frequency = ratio * w / (2.0 * std::numbers::pi),
+                 expected = 0.03 * 0.5 * (ratio + 1.0 / ratio);
+    // In place of the damping of the solver and of the material's own strain damping.
+    Simulation sim =
+        scene(free_block("damping = 0.4\n" + rayleigh(0.03, frequency) + "\n",
+                         "safety = 0.05\ndamping = { " + rayleigh(0.2, 50.0) + " }\n"));
+    EXPECT_NEAR(damping_found(sim, w) / expected, 1.0, 0.02) << ratio;
+    EXPECT_LT(std::abs(account_energy(sim).error), 1e-9);
+    Simulation implicit =
+        scene(free_block(rayleigh(0.03, frequency) + "\n", "method = 'dda'\ntime_step = 1e-5\n"));
+    EXPECT_NEAR((damping_found(implicit, w) - 0.25 * w * 1e-5) / expected, 1.0, 0.02) << ratio;
+    EXPECT_LT(std::abs(account_energy(implicit).error), 1e-6);
+  }
+}
+
+/// Two materials with what the solver has are the same as the solver's.
+TEST(StrainDamping, RayleighsOfAllMaterialsIsThatOfTheSolver) {
+  const auto made = [](const std::string& material, const std::string& solver) {
+    const std::string rock = "density = 2500\nyoung = 2e8\npoisson = 0.25\n" + material;
+    return scene("[materials.rock]\n" + rock + "[materials.fill]\n" + rock +
+                 "[joints.j]\nfriction_angle = 35\n[solver]\nduration = 0.2\n" + solver +
+                 "[[block]]\nmaterial = 'rock'\npolygon = [[0,0],[2,0],[2,1],[0,1]]\nfixed = true\n"
+                 "[[block]]\nmaterial = 'rock'\npolygon = [[0,1],[2,1],[2,2],[0,2]]\n"
+                 "velocity = [0.3, -0.2]\n[[block]]\nmaterial = 'fill'\n"
+                 "polygon = [[0,2],[2,2],[2,3],[0,3]]\nangular_velocity = 0.2\n");
+  };
+  for (const char* method : {"", "method = 'dda'\ntime_step = 1e-3\n"}) {
+    Simulation own = made(rayleigh(0.05, 20.0) + "\n", method),
+               all = made("", method + ("damping = { " + rayleigh(0.05, 20.0) + " }\n"));
+    for (Simulation* sim : {&own, &all}) {
+      start(*sim, 0.2);
+      while (sim->motion.state.time < 0.2) ASSERT_FALSE(step(*sim).has_value());
+    }
+    EXPECT_EQ(own.motion.state.steps, all.motion.state.steps);
+    EXPECT_EQ(own.motion.state.position.x, all.motion.state.position.x);
+    EXPECT_EQ(own.motion.state.velocity.y, all.motion.state.velocity.y);
+    EXPECT_LT(std::abs(account_energy(own).error), 1e-4);
+  }
+}
+
+/// The part of critical with which the top of a column swings, whose weight acts all at once: from
+/// the extremes of its displacement after the first two, and its frequency.
+struct Swing {
+  double fraction = 0.0, omega = 0.0, error = 0.0;
+};
+Swing swing_of(Simulation& sim, std::size_t vertex, double duration) {
+  std::vector<double> extremes, times;
+  double before = sim.motion.pose.y[vertex], slope = 0.0;
+  start(sim, duration);
+  while (sim.motion.state.time < duration) {
+    EXPECT_FALSE(step(sim).has_value());
+    const double now = sim.motion.pose.y[vertex];
+    if (slope * (now - before) < 0.0) {
+      extremes.push_back(before);
+      times.push_back(sim.motion.state.time - sim.motion.state.step);
+    }
+    slope = now - before;
+    before = now;
+  }
+  Swing s;
+  s.error = account_energy(sim).error;
+  const std::size_t last = extremes.size() - 1, first = 2;
+  EXPECT_GT(last, first + 2);
+  if (last < first + 2) return s;
+  const double swings = double(last - first - 1),
+               half = (times[last] - times[first]) / double(last - first),
+               decay = std::log((extremes[first + 1] - extremes[first]) /
+                                (extremes[last] - extremes[last - 1]) *
+                                (int(swings) % 2 == 0 ? 1.0 : -1.0)) /
+                       swings;
+  s.fraction = decay / std::numbers::pi;
+  s.omega = std::numbers::pi / half;
+  return s;
+}
+
+/// A column of zones on a base, its lower half of rock and its upper one of fill with the same
+/// elasticity: a part p of the kinetic energy of its first mode, sin(pi y/2L), and 1 - p of its
+/// elastic energy are in the lower half, p = 1/2 - 1/pi. For small damping the fraction of critical
+/// is sum (a w^-1 kinetic part + b w elastic part)/2.
+TEST(StrainDamping, RayleighsOfTwoMaterialsInAColumnOfZones) {
+  const double w = 0.5 * std::numbers::pi / 10.0 * std::sqrt(2e8 / 2000.0),
+               hertz = w / (2.0 * std::numbers::pi), p = 0.5 - 1.0 / std::numbers::pi;
+  const std::string elastic = "density = 2000\nyoung = 2e8\npoisson = 0\n";
+  const double low = 0.01, high = 0.06;
+  Simulation sim = scene(
+      "gravity = [0, -1]\ndeformation = 'zones'\n[zones]\nsize = 1\n[materials.rock]\n" + elastic +
+      rayleigh(low, hertz) + "\n[materials.fill]\n" + elastic + rayleigh(high, 2.0 * hertz) +
+      "\n[joints.j]\ntype = 'glued'\nkn = 1e12\n[solver]\nduration = 1.6\n"
+      "[[block]]\nmaterial = 'rock'\npolygon = [[0,0],[1,0],[1,5],[0,5]]\n"
+      "[[block]]\nmaterial = 'fill'\npolygon = [[0,5],[1,5],[1,10],[0,10]]\n"
+      "[[boundary]]\ntype = 'fixed'\nalong = [[0,0],[1,0]]\nstiffness = 1e12\n");
+  const BlockSet& b = sim.scene->blocks;
+  std::size_t top = 0;
+  for (std::size_t v = 0; v < b.vertex_count(); ++v)
+    if (b.vertex_y[v] > b.vertex_y[top]) top = v;
+  const Swing s = swing_of(sim, top, 1.6);
+  EXPECT_NEAR(s.omega, w, 0.01 * w);
+  const double expected =
+      0.5 * (low * p + 2.0 * high * (1.0 - p)) + 0.5 * (low * (1.0 - p) + 0.5 * high * p);
+  EXPECT_NEAR(s.fraction, expected, 0.03 * expected);
+  EXPECT_LT(std::abs(s.error), 1e-4);
+  EXPECT_GT(account_energy(sim).damping, 0.0);
+}
+
 }  // namespace
 }  // namespace edda::strain_damping_test

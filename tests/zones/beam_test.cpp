@@ -350,5 +350,95 @@ TEST(Beam, PlasticMoment) {
   EXPECT_GT(state.hinge[1], 0.0);
 }
 
+/// Viscous forces are eta times the rate of the elastic ones, also of a curved piece that has
+/// turned.
+TEST(Beam, ViscousForcesGrowAsElasticOnesDo) {
+  constexpr double r = 4.0, eta = 2e-4, small = 1e-7;
+  BeamCorners x{Vec2{r, 0.0}, Vec2{r * std::cos(0.2), r * std::sin(0.2)},
+                Vec2{(r - thick) * std::cos(0.2), (r - thick) * std::sin(0.2)},
+                Vec2{r - thick, 0.0}};
+  for (Vec2& at : x) at = rotated(at, 1.1);
+  const BeamShape shape = beam_shape(section, x, mass);
+  const BeamCorners v{Vec2{0.3, -0.2}, Vec2{-0.1, 0.5}, Vec2{0.7, 0.2}, Vec2{-0.4, -0.6}};
+  BeamState state = beam_at_start(x);
+  const BeamCorners rate = viscous_forces(shape, state, x, v, eta);
+  BeamCorners moved = x, spin = x;
+  for (std::size_t c = 0; c < x.size(); ++c) {
+    moved[c] += small * v[c];
+    spin[c] = perp(x[c]);
+  }
+  const BeamCorners none = viscous_forces(shape, state, x, spin, eta);
+  const BeamResult after = evaluate_beam(shape, {}, moved, state);
+  for (std::size_t c = 0; c < x.size(); ++c) {
+    EXPECT_LT(norm(rate[c] - (eta / small) * after.force[c]), 1e-4 * norm(rate[c]));
+    EXPECT_LT(norm(none[c]), 1e-9 * norm(rate[c]));
+  }
+}
+
+/// A bar that is pulled breaks at its tensile strength and keeps the residual one, by which it is
+/// unloaded and loaded again; what is put in is stored or dissipated.
+TEST(Beam, BarInTensionKeepsItsResidualStrength) {
+  const BeamCorners drawn{Vec2{0, 0}, Vec2{0.8, 0}, Vec2{0.8, thick}, Vec2{0, thick}};
+  const BeamShape shape = beam_shape(section, drawn, mass);
+  const SectionStrength peak = rectangle_strength(30e6, 3e6, section.area, thick),
+                        after = rectangle_strength(20e6, 0.5e6, section.area, thick);
+  BeamState state = beam_at_start(drawn);
+  const double yields_at = 3e6 / section.young * 0.8;  // m
+  double most = 0.0, work = 0.0, dissipated = 0.0, moved = 0.0, stored = 0.0;
+  BeamResult r = evaluate_beam(shape, peak, drawn, state, after);
+  const auto pull_to = [&](double to) {
+    for (int n = 0; n < 100; ++n) {
+      const double step = (to - moved) / (100 - n);
+      const BeamResult last = r;
+      BeamCorners x = drawn;
+      for (const std::size_t k : {1u, 2u}) x[k].x += moved + step;
+      r = evaluate_beam(shape, peak, x, state, after);
+      for (const std::size_t k : {1u, 2u}) work -= 0.5 * step * (last.force[k].x + r.force[k].x);
+      moved += step;
+      dissipated += r.dissipated;
+      stored = r.stored;
+      most = std::max(most, state.forces.axial);
+    }
+    return state.forces.axial;
+  };
+  EXPECT_NEAR(pull_to(0.9 * yields_at), 0.9 * 3e6 * section.area, 1.0);
+  EXPECT_EQ(state.yielded[0] + state.yielded[1], 0.0);
+  EXPECT_NEAR(pull_to(3.0 * yields_at), 0.5e6 * section.area, 1.0);
+  EXPECT_EQ(state.yielded[0] + state.yielded[1], 2.0);
+  EXPECT_NEAR(most, 3e6 * section.area, 0.03 * 3e6 * section.area);
+  pull_to(2.9 * yields_at);
+  EXPECT_NEAR(pull_to(4.0 * yields_at), 0.5e6 * section.area, 1.0);
+  EXPECT_NEAR(utilisation(strength_at(state, 0, peak, after), state.forces.axial, 0.0), 1.0, 1e-9);
+  EXPECT_NEAR(work, stored + dissipated, 1e-3 * work);
+  EXPECT_NEAR(pull_to(-80.0 * yields_at), -20e6 * section.area,
+              20.0);  // crushed, as crushed concrete
+}
+
+/// One end bends beyond its strength: it alone softens, to the moment of the residual strengths.
+TEST(Beam, OnlyTheEndThatYieldsSoftens) {
+  const BeamCorners drawn{Vec2{0, 0}, Vec2{0.8, 0}, Vec2{0.8, thick}, Vec2{0, thick}};
+  const BeamShape shape = beam_shape(section, drawn, mass);
+  const SectionStrength peak = rectangle_strength(20e6, 20e6, section.area, thick),
+                        after = rectangle_strength(5e6, 5e6, section.area, thick);
+  const double whole = 20e6 * section.area * thick / 4.0;
+  // The other end is held where it has 0.6 of the moment, as under a shear force.
+  BeamState state = beam_at_start(drawn);
+  double most = 0.0;
+  for (int n = 0; n <= 200; ++n) {
+    BeamCorners x = drawn;
+    const Vec2 middle{0.8, 0.5 * thick + 1e-5 * n};
+    for (const std::size_t k : {1u, 2u})
+      x[k] = middle + rotated(drawn[k] - Vec2{0.8, 0.5 * thick}, 5e-5 * n);
+    evaluate_beam(shape, peak, x, state, after);
+    most = std::max(most, std::abs(state.forces.moment[1]));
+    if (state.yielded[1] != 0.0 && state.yielded[0] == 0.0 && n > 150) break;
+  }
+  EXPECT_EQ(state.yielded[1], 1.0);
+  EXPECT_NEAR(most, whole, 0.03 * whole);
+  EXPECT_LE(std::abs(state.forces.moment[1]), 0.25 * whole * (1.0 + 1e-6));
+  EXPECT_EQ(state.yielded[0], 0.0);
+  EXPECT_GT(std::abs(state.forces.moment[0]), 0.0);
+}
+
 }  // namespace
 }  // namespace edda::beam_test

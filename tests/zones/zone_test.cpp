@@ -360,5 +360,56 @@ TEST(Zone, AFoliationHasItsStrength) {
   }
 }
 
+/// Viscous forces are eta times the rate of the elastic ones, and take energy from any motion.
+TEST(Zone, ViscousForcesGrowAsElasticOnesDo) {
+  constexpr double eta = 3e-4, small = 1e-6;
+  for (const ZoneMaterial& m : {elastic, transverse}) {
+    for (const bool alone : {false, true}) {
+      Pair pair({}, m);
+      if (alone) pair.shape[1] = {};
+      const std::array<Vec2, 4> v{Vec2{0.3, -0.2}, Vec2{-0.1, 0.5}, Vec2{0.7, 0.2},
+                                  Vec2{-0.4, -0.6}};
+      std::array<Vec2, 4> moved = pair.at;
+      for (std::size_t k = 0; k < 4; ++k) moved[k] += small * v[k];
+      const auto rate =
+          viscous_forces(pair.shape, m, Pair::corners(pair.at), Pair::corners(v), eta);
+      const std::array<ZoneResult, 2> after = pair.at_corners(m, moved);
+      double power = 0.0;
+      for (std::size_t q = 0; q < (alone ? 1u : 2u); ++q) {
+        for (std::size_t k = 0; k < 3; ++k) {
+          EXPECT_LT(norm(rate[q][k] - (eta / small) * after[q].force[k]), 1e-4 * norm(rate[q][k]));
+          power += dot(rate[q][k], Pair::corners(v)[q][k]);
+        }
+      }
+      EXPECT_LT(power, 0.0);
+    }
+  }
+}
+
+/// A zone that turns has none; turned by any angle, it has the same ones, turned.
+TEST(Zone, ViscousForcesTurnWithTheZone) {
+  for (const ZoneMaterial& m : {elastic, transverse}) {
+    const Pair pair({}, m);
+    const std::array<Vec2, 4> v{Vec2{0.3, -0.2}, Vec2{-0.1, 0.5}, Vec2{0.7, 0.2}, Vec2{-0.4, -0.6}};
+    std::array<Vec2, 4> spin, turned, turned_v;
+    for (std::size_t k = 0; k < 4; ++k) {
+      spin[k] = perp(pair.at[k]);
+      turned[k] = rotated(pair.at[k], 0.9);
+      turned_v[k] = rotated(v[k], 0.9) + 7.0 * perp(turned[k]);
+    }
+    const auto f = viscous_forces(pair.shape, m, Pair::corners(pair.at), Pair::corners(v), 1e-4),
+               none =
+                   viscous_forces(pair.shape, m, Pair::corners(pair.at), Pair::corners(spin), 1e-4),
+               g = viscous_forces(pair.shape, m, Pair::corners(turned), Pair::corners(turned_v),
+                                  1e-4);
+    for (std::size_t q = 0; q < 2; ++q) {
+      for (std::size_t k = 0; k < 3; ++k) {
+        EXPECT_LT(norm(none[q][k]), 1e-9 * norm(f[q][k]));
+        EXPECT_LT(norm(g[q][k] - rotated(f[q][k], 0.9)), 1e-9 * norm(f[q][k]));
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace edda::zone_test

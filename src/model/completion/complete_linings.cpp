@@ -1,4 +1,6 @@
 // [[lining]]: where it is, and its section.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -65,6 +67,37 @@ void check_strength(const Value* node, const Lining& lining, Reading& reading) {
           "belongs to the area and compressive_strength of steel sets");
 }
 
+/// The residual strength is no more than the one before it.
+void check_residual(const Value* node, const Lining& lining, Reading& reading) {
+  if (!lining.residual) return;
+  const Value* own = find(node, "residual");
+  const std::string path = lining.where.key + ".residual";
+  const RockStrength* of_material = nullptr;
+  if (lining.material != none) {
+    const auto& strength =
+        reading.model.materials[static_cast<std::size_t>(lining.material)].strength;
+    of_material = strength ? &*strength : nullptr;
+  }
+  if (!lining.compressive_strength && of_material == nullptr) {
+    add_fault(reading, own->place, path, "belongs to a compressive_strength",
+              "give that, or the material a strength = { ucs = ..., tension = ... }");
+    return;
+  }
+  const bool elsewhere = !lining.compressive_strength;
+  const double compressive = elsewhere ? of_material->ucs : *lining.compressive_strength,
+               tensile = elsewhere
+                             ? of_material->tension
+                             : lining.tensile_strength.value_or(lining.area ? compressive : 0.0);
+  const auto check = [&](const char* key, const std::optional<double>& after, double before) {
+    if (!after || *after <= before) return;
+    add_fault(reading, find(own, key)->place, path + "." + key,
+              fmt::format("is more than before the section yields, {:.6g} Pa", before),
+              "give no more than that, or leave it out");
+  };
+  check("compressive_strength", lining.residual->compressive_strength, compressive);
+  check("tensile_strength", lining.residual->tensile_strength, tensile);
+}
+
 void check_place(const Value* node, const Lining& lining, Reading& reading) {
   const std::string& path = lining.where.key;
   const Value* on = find(node, "on");
@@ -117,6 +150,7 @@ void complete_linings(const Value& root, Reading& reading) {
     check_section(node, lining, reading);
     check_place(node, lining, reading);
     check_strength(node, lining, reading);
+    check_residual(node, lining, reading);
     if (lining.material != none) {
       const Material& m = model.materials[static_cast<std::size_t>(lining.material)];
       if (m.yield || m.foliation)

@@ -21,7 +21,6 @@ void complete_stage_damping(const Value* node, const Solver& solver, Stage& stag
   const bool seeks_equilibrium = stage.to_equilibrium() && solver.method == Method::edda;
   if (!given(own, "mass")) stage.damping.mass = solver.damping.mass;
   if (!given(own, "contact")) stage.damping.contact = solver.damping.contact;
-  if (!given(own, "rayleigh")) stage.damping.rayleigh = solver.damping.rayleigh;
   // With local damping the user has already chosen how the stage reaches equilibrium.
   if (!given(own, "local")) stage.damping.local = seeks_equilibrium ? 0.0 : solver.damping.local;
   if (!given(own, "adaptive")) {
@@ -29,6 +28,8 @@ void complete_stage_damping(const Value* node, const Solver& solver, Stage& stag
     stage.damping.adaptive =
         seeks_equilibrium && !chosen ? Damping::for_equilibrium : solver.damping.adaptive;
   }
+  const bool adaptive = seeks_equilibrium && stage.damping.adaptive > 0.0;
+  if (!given(own, "rayleigh") && !adaptive) stage.damping.rayleigh = solver.damping.rayleigh;
 }
 
 /// In a stage until equilibrium inertia is scaled by default, so that small blocks do not shorten
@@ -163,7 +164,7 @@ void check_materials(const Material& from, const Material& to, const Value* own,
   if (!from.deforms_as(to)) {
     add_fault(reading, place_of(own, "to"), where.key + ".to",
               fmt::format("\"{}\" has another density, young, poisson, foliation, damping, "
-                          "pore_pressure or deformation than \"{}\"",
+                          "rayleigh, pore_pressure or deformation than \"{}\"",
                           to.name, from.name),
               "a change is one of strength: give both the same of these");
   } else if (!from.yield || !to.yield) {

@@ -28,7 +28,8 @@ constexpr std::array material_keys{
     Key{"unit_weight", nullptr, number(D::unit_weight, above(0)), otherwise("density * |gravity|"), "Weight per volume, in place of density; divided by |gravity|, or by 9.81 m/s2 where that is zero."},
     Key{"young", at<&Material::young>, number(D::stress, above(0)), required, "Young's modulus."},
     Key{"poisson", at<&Material::poisson>, number(D::plain, between(-1, 0.5)), required, "Poisson's ratio."},
-    Key{"damping", at<&Material::damping>, number(D::plain, from(0)), initial, "Viscous damping of the strain of a block, as a fraction of critical damping of its lowest natural frequency; it hardly affects motion far below that frequency. 0: none. Meshed blocks have none."},
+    Key{"damping", at<&Material::damping>, number(D::plain, from(0)), initial, "Viscous damping of the strain of a block, as a fraction of critical damping of its lowest natural frequency; it hardly affects motion far below that frequency. 0: none. Linings have it at the highest frequency of a piece by itself, but not with adaptive damping; other meshed blocks do not have it."},
+    Key{"rayleigh", at<&Material::rayleigh>, table, otherwise("solver.damping.rayleigh, else damping"), "Damping of its blocks in proportion to mass and stiffness, least at one frequency (Rayleigh), in place of damping and of the rayleigh of solver.damping or of a stage; not in stages with adaptive damping (those until equilibrium)."},
     Key{"deformation", at<&Material::deformation>, choice, initial, "How blocks of this material deform: corners, uniform or zones; auto: zones with a yield or foliation table, else as the model says."},
     Key{"zone_size", at<&Material::zone_size>, number(D::length, above(0)), otherwise("zones.size"), "Length of the edges of zones in this material, in place of zones.size."},
     Key{"pore_pressure", at<&Material::pore_pressure>, flag, initial, "Whether the water of [[water]] is in the pores of its zones, too, whose strength is then one of effective stresses; false: a strength of total stresses (undrained clay), or rock without pores."},
@@ -249,6 +250,11 @@ constexpr std::array bolt_pattern_keys{
     Key{"dowel", at<&BoltPattern::bolt, &Bolt::dowel>, table, otherwise("no dowel action"), "As of a bolt."},
 };
 
+constexpr std::array lining_residual_keys{
+    Key{"compressive_strength", at<&LiningResidual::compressive_strength>, number(D::stress, above(0)), otherwise("as before it yields"), "Compressive strength of a section that has yielded."},
+    Key{"tensile_strength", at<&LiningResidual::tensile_strength>, number(D::stress, from(0)), otherwise("as before it yields"), "Its tensile strength."},
+};
+
 constexpr std::array lining_keys{
     Key{"name", at<&Lining::name>, naming, otherwise("none"), "What --set, stages and tables call the lining."},
     Key{"opening", at<&Lining::opening>, naming, otherwise("none; either this, on or along"), "Name of the opening on whose outline the lining is, inside it."},
@@ -263,6 +269,7 @@ constexpr std::array lining_keys{
     Key{"spacing", at<&Lining::spacing>, number(D::length, above(0)), initial, "Distance from steel set to steel set out of plane."},
     Key{"compressive_strength", at<&Lining::compressive_strength>, number(D::stress, above(0)), otherwise("that of the material (strength.ucs); without either the lining stays elastic"), "Compressive strength, or the yield stress of steel. Where thrust and moment of a section reach what it can carry, it becomes a plastic hinge."},
     Key{"tensile_strength", at<&Lining::tensile_strength>, number(D::stress, from(0)), otherwise("0; of steel sets compressive_strength; strength.tension with the strength of the material"), "Tensile strength."},
+    Key{"residual", at<&Lining::residual>, table, otherwise("none: the strength does not fall"), "Strengths of a section once it has yielded, at once and for good (concrete that cracks or is crushed)."},
     Key{"plastic_moment", at<&Lining::plastic_moment>, number(D::moment, above(0)), otherwise("that of a solid section of the same area and inertia"), "Plastic moment of a steel set without thrust."},
     Key{"size", at<&Lining::size>, number_or("auto", D::length, above(0)), otherwise("\"auto\": a 32nd of the length of the lining, or twice its thickness if that is more"), "Length of its pieces, at most. Straight parts of an outline that stands for a curve are best one piece each: where they are divided, the lining bends as the polygon that is drawn."},
     Key{"interface", at<&Lining::interface>, joint, otherwise("that of the wall, or contact.joint"), "Law of the faces between the lining and what it touches: stiffness, friction, adhesion (cohesion and tensile strength)."},
@@ -302,7 +309,7 @@ constexpr std::array damping_keys{
     Key{"local", at<&Damping::local>, number(D::plain, from_below(0, 1)), initial, "Local damping (Cundall), a fraction of the unbalanced force: for stages that seek equilibrium only, since it slows down free fall and all other motion."},
     Key{"contact", at<&Damping::contact>, number(D::plain, from(0)), initial, "Viscous damping at contacts, a fraction of critical."},
     Key{"adaptive", at<&Damping::adaptive>, number(D::plain, from_to(0, 1)), initial, "Method edda: viscous damping in proportion to mass, a fraction of critical at the frequency with which the model moves at present (Rayleigh's quotient); it brings a model to equilibrium and falsifies all other motion."},
-    Key{"rayleigh", at<&Damping::rayleigh>, table, otherwise("none: materials.X.damping"), "Damping in proportion to mass and to the stiffness of the blocks, least at one frequency (Rayleigh), in place of materials.X.damping."},
+    Key{"rayleigh", at<&Damping::rayleigh>, table, otherwise("none: materials.X.damping"), "Damping in proportion to mass and stiffness, least at one frequency (Rayleigh), in place of materials.X.damping; of materials with a rayleigh of their own that goes first. A stage until equilibrium with adaptive damping has only what it gives itself."},
 };
 
 constexpr std::array ramp_keys{
@@ -454,6 +461,9 @@ std::span<const Key> keys_of(const RockStrength&) {
 }
 std::span<const Key> keys_of(const Damping&) {
   return damping_keys;
+}
+std::span<const Key> keys_of(const LiningResidual&) {
+  return lining_residual_keys;
 }
 std::span<const Key> keys_of(const Rayleigh&) {
   return rayleigh_keys;

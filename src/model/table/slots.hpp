@@ -133,6 +133,7 @@ std::span<const Key> keys_of(const FoliationInputs&);
 std::span<const Key> keys_of(const Strength&);
 std::span<const Key> keys_of(const Damping&);
 std::span<const Key> keys_of(const Rayleigh&);
+std::span<const Key> keys_of(const LiningResidual&);
 std::span<const Key> keys_of(const Deviation&);
 std::span<const Key> keys_of(const AngleSpread&);
 std::span<const Key> keys_of(const LengthSpread&);

@@ -169,7 +169,7 @@ constexpr std::array other_words{
     Synonym{"damp", "solver.damping", "for instance damping = { contact = 0.1 }; a [[stage]] with until = \"equilibrium\" brings its own"},
     Synonym{"local", "solver.damping.local", "damping = { local = 0.8 }; it falsifies all motion, and a [[stage]] with until = \"equilibrium\" needs none"},
     Synonym{"local_damping", "solver.damping.local", "damping = { local = 0.8 }; it falsifies all motion, and a [[stage]] with until = \"equilibrium\" needs none"},
-    Synonym{"rayleigh", "solver.damping.mass solver.damping.contact", "mass-proportional damping, and dashpots at the contacts for what is proportional to stiffness"},
+    Synonym{"rayleigh", "solver.damping.rayleigh", "damping = { rayleigh = { fraction = 0.02, frequency = \"2 Hz\" } }; materials.NAME.rayleigh is that of one material"},
     Synonym{"gravity_loading", "gravity", ""},
     Synonym{"factor_of_safety", "fos", "edda fos finds it"},
     Synonym{"srf", "fos stage.strength_factor", "edda fos finds it"},

@@ -162,7 +162,7 @@ class Results:
 
         time (s), lining (name or number), piece, distance (m along it), x, y (m); thrust (N, compression positive), moment
         (N m, positive with tension at the wall), shear (N), each of the model's thickness; utilisation (part of the strength),
-        hinge_rotation (rad), material (name of the one that the lining has by then).
+        hinge_rotation (rad), material (name of the one that the lining has by then), yielded (1 or 0, so far).
         """
         return read_table(self._file("linings.csv"))
 
