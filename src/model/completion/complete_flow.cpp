@@ -20,8 +20,8 @@ void check_water(const Value* node, const Water& water, Reading& reading) {
     }
     return;
   }
-  for (const char* source : {"rain", "injection"}) {
-    if (!given(node, source)) continue;
+  if (injects || given(node, "rain")) {
+    const char* source = injects ? "injection" : "rain";
     for (const char* name : {"rain", "table", "level", "sides", "along", "flooded"}) {
       if (given(node, name) && name != std::string_view(source))
         refuse(name, fmt::format("{} is given too", source),
