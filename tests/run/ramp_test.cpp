@@ -345,9 +345,7 @@ TEST(Ramp, StagesGoOnAfterACollapse) {
   EXPECT_GT(r.moved("block").x, 0.5 * slides);
 }
 
-TEST(Ramp, ResumesToTheSameBits) {
-  const std::string model = block_on_floor("[[monitor]]\nname = 'top'\npoint = [0.5, 0.4]\n" +
-                                           stages_with("tilt = [10, 40], steps = 30"));
+void expect_same_bits(const std::string& model) {
   const ScratchFolder whole, broken;
   RunOptions options;
   options.folder = whole.path().string();
@@ -383,6 +381,58 @@ TEST(Ramp, ResumesToTheSameBits) {
         return read_file(folder.path().string() + file).value();
       };
       EXPECT_EQ(text(whole), text(broken)) << file << at;
+    }
+  }
+}
+
+const std::string top = "[[monitor]]\nname = 'top'\npoint = [0.5, 0.4]\n";
+
+TEST(Ramp, ResumesToTheSameBits) {
+  expect_same_bits(block_on_floor(top + stages_with("tilt = [10, 40], steps = 30")));
+}
+
+/// Laws that change with the ramp, strength and stiffness, and that lose strength with time.
+const std::string worn = "kn = 1e9\nks = 4e8\ndecay_time = '10 d'\nresidual = { friction_angle = 5 }\n",
+                  change = "change = [{ joints = 'dry', to = 'worn' }]\n";
+std::string of_laws(const std::string& stages) {
+  std::string model = block_on_floor(top + stages, 20.0);
+  model.insert(model.find("[[block]]"),
+               worn + "[joints.worn]\nfriction_angle = 25\n" + worn + "[contact]\njoint = 'dry'\n");
+  model.replace(model.rfind("kn = 1e9"), 8, "kn = 3e8");
+  return model;
+}
+
+TEST(Ramp, OfLawsResumesToTheSameBits) {
+  expect_same_bits(of_laws(stages_with("time = ['0 d', '8 d'], steps = 16")));
+  expect_same_bits(of_laws("[[stage]]\nuntil = 'equilibrium'\n[[stage]]\n" + change +
+                           "ramp = { change = [0, 1], steps = 10 }\n[[stage]]\nduration = 0.05\n"));
+}
+
+/// From the end of a stage, with other changes to come.
+TEST(Ramp, StagesAfterOneMayChangeOtherJoints) {
+  const std::string first = "[[stage]]\nname = 'rest'\nuntil = 'equilibrium'\n[[stage]]\nname = "
+                            "'age'\n" + change + "ramp = { change = [0, 0.5], steps = 2 }\n",
+                    none = "[[stage]]\nduration = 0.01\n",
+                    more = "[[stage]]\nchange = [{ joints = 'worn', to = 'dry' }]\nramp = { change = "
+                           "[0, 1], steps = 2 }\n" + none;
+  for (const bool adds : {true, false}) {
+    const ScratchFolder whole, broken;
+    RunOptions options;
+    options.folder = broken.path().string();
+    PreparedRun before = prepared(of_laws(first + (adds ? none : more)));
+    ASSERT_TRUE(run_model(before, options).ok());
+    PreparedRun after = prepared(of_laws(first + (adds ? more : none)));
+    options.from_stage = 1;
+    const Result<Outcome> went_on = run_model(after, options);
+    ASSERT_TRUE(went_on.ok()) << to_string(went_on.faults()[0]);
+    options = {};
+    options.folder = whole.path().string();
+    PreparedRun at_once = prepared(of_laws(first + (adds ? more : none)));
+    ASSERT_TRUE(run_model(at_once, options).ok());
+    for (const char* file : {"/blocks.csv", "/joints.csv"}) {
+      EXPECT_EQ(read_file(whole.path().string() + file).value(),
+                read_file(broken.path().string() + file).value())
+          << file << adds;
     }
   }
 }
