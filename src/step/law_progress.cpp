@@ -73,7 +73,7 @@ void begin_law_changes(Simulation& sim, std::size_t stage) {
 }
 
 void update_laws(Simulation& sim) {
-  constexpr std::uint64_t steps_between = 50;
+  constexpr std::uint64_t steps_between = 10;
   if (sim.motion.state.steps % steps_between != 0 || !is_timed(stage_of(sim))) return;
   set_strength_factors(sim, sim.motion.laws.divided_by);
 }

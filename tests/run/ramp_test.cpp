@@ -354,7 +354,7 @@ void expect_same_bits(const std::string& model) {
   ASSERT_TRUE(outcome.ok());
   const std::uint64_t steps = outcome.value().steps;
   // In an early increment, and in the one that fails.
-  for (const std::uint64_t at : {std::uint64_t{1500}, steps / 2, steps - 100}) {
+  for (const std::uint64_t at : {std::min(std::uint64_t{1500}, steps / 4), steps / 2, steps - 100}) {
     options = {};
     options.folder = broken.path().string();
     std::filesystem::remove_all(broken.path());
@@ -395,7 +395,7 @@ TEST(Ramp, ResumesToTheSameBits) {
 const std::string worn = "kn = 1e9\nks = 4e8\ndecay_time = '10 d'\nresidual = { friction_angle = 5 }\n",
                   change = "change = [{ joints = 'dry', to = 'worn' }]\n";
 std::string of_laws(const std::string& stages) {
-  std::string model = block_on_floor(top + stages, 20.0);
+  std::string model = block_on_floor("[[monitor]]\nname = 'low'\npoint = [0.5, 0.1]\n" + stages, 20.0);
   model.insert(model.find("[[block]]"),
                worn + "[joints.worn]\nfriction_angle = 25\n" + worn + "[contact]\njoint = 'dry'\n");
   model.replace(model.rfind("kn = 1e9"), 8, "kn = 3e8");
@@ -416,24 +416,26 @@ TEST(Ramp, StagesAfterOneMayChangeOtherJoints) {
                     more = "[[stage]]\nchange = [{ joints = 'worn', to = 'dry' }]\nramp = { change = "
                            "[0, 1], steps = 2 }\n" + none;
   for (const bool adds : {true, false}) {
-    const ScratchFolder whole, broken;
+    const ScratchFolder folder;
     RunOptions options;
-    options.folder = broken.path().string();
+    options.folder = folder.path().string();
     PreparedRun before = prepared(of_laws(first + (adds ? none : more)));
     ASSERT_TRUE(run_model(before, options).ok());
     PreparedRun after = prepared(of_laws(first + (adds ? more : none)));
     options.from_stage = 1;
     const Result<Outcome> went_on = run_model(after, options);
     ASSERT_TRUE(went_on.ok()) << to_string(went_on.faults()[0]);
-    options = {};
-    options.folder = whole.path().string();
-    PreparedRun at_once = prepared(of_laws(first + (adds ? more : none)));
-    ASSERT_TRUE(run_model(at_once, options).ok());
-    for (const char* file : {"/blocks.csv", "/joints.csv"}) {
-      EXPECT_EQ(read_file(whole.path().string() + file).value(),
-                read_file(broken.path().string() + file).value())
-          << file << adds;
-    }
+    const Ran at_once = ran(of_laws(first + (adds ? more : none)));
+    const auto law_of = [](const Simulation& sim) {
+      return sim.motion.laws.rows[sim.motion.contacts.law[0]];
+    };
+    const Law one = law_of(after.sim), other = law_of(at_once.ready.sim);
+    EXPECT_EQ(one.peak_friction, other.peak_friction) << adds;
+    EXPECT_EQ(one.kn, other.kn) << adds;
+    EXPECT_EQ(one.kn, adds ? 1e9 : std::lerp(1e9, 3e8, 0.5));
+    const Vec2 apart = centroid(after.sim.motion.state.position, 1) -
+                       centroid(at_once.ready.sim.motion.state.position, 1);
+    EXPECT_LT(norm(apart), 1e-8) << adds;
   }
 }
 

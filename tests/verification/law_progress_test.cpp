@@ -339,8 +339,8 @@ TEST(LawProgress, DecayBeginsWithTheChange) {
 /// Changes there and back count on from what has been reached.
 TEST(LawProgress, ChangesFollowEachOther) {
   const std::string half = "ramp = { change = [0, 0.5], steps = 2 }\n",
-                    there = "[[stage]]\nchange = [{ joints = 'fresh', to = 'worn' }]\n",
-                    back = "[[stage]]\nchange = [{ joints = 'worn', to = 'fresh' }]\n";
+                    there = "[[stage]]\nuntil = 'equilibrium'\nchange = [{ joints = 'fresh', to = 'worn' }]\n",
+                    back = "[[stage]]\nuntil = 'equilibrium'\nchange = [{ joints = 'worn', to = 'fresh' }]\n";
   const std::string laws = law("fresh", 40, 0) + law("worn", 31, 0);
   const double a = tangent(40.0), b = tangent(31.0), m = 0.5 * (a + b);
   for (const auto& [stages, exact] : {std::pair<std::string, double>{there + half, m},
