@@ -51,18 +51,15 @@ Index law_of(const std::vector<LawTable::Pair>& pairs, Index a, Index b) {
 void lose_strength(const JointLaw& j, double time, Law& law) {
   if (!j.decay_time) return;
   const double left = std::exp(-time / *j.decay_time);
-  const auto lose = [&](double& peak, double residual) {
-    peak = std::lerp(residual, peak, left);
-  };
+  const auto lose = [&](double& peak, double residual) { peak = std::lerp(residual, peak, left); };
   lose(law.peak_friction, law.residual_friction);
   lose(law.peak_cohesion, law.residual_cohesion);
   lose(law.peak_tension, law.residual_tension);
 }
 
-constexpr double Law::*changing[] = {&Law::peak_friction,     &Law::peak_cohesion,
-                                     &Law::peak_tension,      &Law::residual_friction,
-                                     &Law::residual_cohesion, &Law::residual_tension,
-                                     &Law::kn,                &Law::ks};
+constexpr double Law::*changing[] = {
+    &Law::peak_friction,     &Law::peak_cohesion,    &Law::peak_tension, &Law::residual_friction,
+    &Law::residual_cohesion, &Law::residual_tension, &Law::kn,           &Law::ks};
 
 /// Brings the laws to where they have come in time. Those from which others change come before
 /// these.
@@ -88,8 +85,12 @@ std::vector<std::uint16_t> ranks(const Model& model) {
   for (std::size_t r = 0; r < model.joints.size(); ++r) {
     const JointLaw& j = model.joints[r];
     // A glued joint is the strongest of all.
-    Key own{j.type == LawType::glued, j.peak.friction_angle,   j.peak.cohesion,
-            j.peak.tensile_strength,  j.name,                  r};
+    Key own{j.type == LawType::glued,
+            j.peak.friction_angle,
+            j.peak.cohesion,
+            j.peak.tensile_strength,
+            j.name,
+            r};
     if (j.change && j.change->from != none) {
       own = std::min(own, keys[static_cast<std::size_t>(j.change->from)]);
       std::get<std::size_t>(own) = r;

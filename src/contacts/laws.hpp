@@ -43,8 +43,9 @@ inline bool dilates(const Law& law) {
 /// Whether faces of this law that touch have a strength that they may lose: a bond, or that of slip
 /// weakening.
 inline bool may_weaken(const Law& law) {
-  return law.loses_peak || law.type == LawType::slip_weakening || law.glued || law.peak_cohesion > 0.0 ||
-         law.peak_tension > 0.0 || law.peak_friction > law.residual_friction;
+  return law.loses_peak || law.type == LawType::slip_weakening || law.glued ||
+         law.peak_cohesion > 0.0 || law.peak_tension > 0.0 ||
+         law.peak_friction > law.residual_friction;
 }
 
 /// The two edges of a face, as far as its penalty stiffness depends on them.
@@ -80,8 +81,9 @@ struct LawTable {
   ContactSprings penalty{};   ///< of joints without kn
   double thickness = 1.0;
   Index default_law = none;
-  std::vector<std::uint16_t> named;  ///< [rows] the law that the model gives and that it has, or is to have
-  LawProgress progress;              ///< in `rows`
+  std::vector<std::uint16_t>
+      named;             ///< [rows] the law that the model gives and that it has, or is to have
+  LawProgress progress;  ///< in `rows`
   /// A [[contact_pair]]: two joints or two materials, the smaller index first, with their law;
   /// sorted.
   struct Pair {
@@ -118,7 +120,7 @@ struct LawTable {
 };
 
 /// With the strength that the laws have had time to lose, or have by their changes (theory, section
-/// 5.9): s strength, T decay_time, t the time since the joints have had the law, f the part of the
+/// 5.10): s strength, T decay_time, t the time since the joints have had the law, f the part of the
 /// change.
 ///  s_residual + (s_peak - s_residual) exp(-t/T),  s_from + f (s_to - s_from)
 LawTable build_laws(const Model& model, const LawProgress& progress = {});

@@ -257,8 +257,8 @@ void fit_laws(Simulation& sim) {
   for (auto* of : {&sim.motion.laws.progress.part, &sim.motion.laws.progress.since}) {
     if (!of->empty()) of->resize(joints);
   }
-  for (auto* of : {&sim.motion.laws.divided_by, &sim.relaxation.strength_from,
-                   &sim.relaxation.strength_to}) {
+  for (auto* of :
+       {&sim.motion.laws.divided_by, &sim.relaxation.strength_from, &sim.relaxation.strength_to}) {
     if (of->empty()) continue;
     const double rock = of->back();
     of->resize(joints, rock);

@@ -1,5 +1,5 @@
 // Laws of joints that change in time: gradually from one to another (stage.change), and by losing
-// strength (joints.decay_time). Theory, section 5.9.
+// strength (joints.decay_time). Theory, section 5.10.
 #pragma once
 
 #include <cstddef>

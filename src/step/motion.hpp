@@ -26,8 +26,8 @@ struct LawCourse {
 struct Motion {
   State state;
   Pose pose;
-  Masses masses;            ///< in force
-  LawTable laws;            ///< with the strength in force
+  Masses masses;  ///< in force
+  LawTable laws;  ///< with the strength in force
   LawCourse law_course;
   FaceSet contacts;         ///< the list of faces, and what is decided of them
   TiledFaces tiled;         ///< and their states

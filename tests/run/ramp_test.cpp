@@ -354,7 +354,8 @@ void expect_same_bits(const std::string& model) {
   ASSERT_TRUE(outcome.ok());
   const std::uint64_t steps = outcome.value().steps;
   // In an early increment, and in the one that fails.
-  for (const std::uint64_t at : {std::min(std::uint64_t{1500}, steps / 4), steps / 2, steps - 100}) {
+  for (const std::uint64_t at :
+       {std::min(std::uint64_t{1500}, steps / 4), steps / 2, steps - 100}) {
     options = {};
     options.folder = broken.path().string();
     std::filesystem::remove_all(broken.path());
@@ -392,10 +393,12 @@ TEST(Ramp, ResumesToTheSameBits) {
 }
 
 /// Laws that change with the ramp, strength and stiffness, and that lose strength with time.
-const std::string worn = "kn = 1e9\nks = 4e8\ndecay_time = '10 d'\nresidual = { friction_angle = 5 }\n",
-                  change = "change = [{ joints = 'dry', to = 'worn' }]\n";
+const std::string
+    worn = "kn = 1e9\nks = 4e8\ndecay_time = '10 d'\nresidual = { friction_angle = 5 }\n",
+    change = "change = [{ joints = 'dry', to = 'worn' }]\n";
 std::string of_laws(const std::string& stages) {
-  std::string model = block_on_floor("[[monitor]]\nname = 'low'\npoint = [0.5, 0.1]\n" + stages, 20.0);
+  std::string model =
+      block_on_floor("[[monitor]]\nname = 'low'\npoint = [0.5, 0.1]\n" + stages, 20.0);
   model.insert(model.find("[[block]]"),
                worn + "[joints.worn]\nfriction_angle = 25\n" + worn + "[contact]\njoint = 'dry'\n");
   model.replace(model.rfind("kn = 1e9"), 8, "kn = 3e8");
@@ -410,11 +413,15 @@ TEST(Ramp, OfLawsResumesToTheSameBits) {
 
 /// From the end of a stage, with other changes to come.
 TEST(Ramp, StagesAfterOneMayChangeOtherJoints) {
-  const std::string first = "[[stage]]\nname = 'rest'\nuntil = 'equilibrium'\n[[stage]]\nname = "
-                            "'age'\n" + change + "ramp = { change = [0, 0.5], steps = 2 }\n",
+  const std::string first =
+                        "[[stage]]\nname = 'rest'\nuntil = 'equilibrium'\n[[stage]]\nname = "
+                        "'age'\n" +
+                        change + "ramp = { change = [0, 0.5], steps = 2 }\n",
                     none = "[[stage]]\nduration = 0.01\n",
-                    more = "[[stage]]\nchange = [{ joints = 'worn', to = 'dry' }]\nramp = { change = "
-                           "[0, 1], steps = 2 }\n" + none;
+                    more =
+                        "[[stage]]\nchange = [{ joints = 'worn', to = 'dry' }]\nramp = { change = "
+                        "[0, 1], steps = 2 }\n" +
+                        none;
   for (const bool adds : {true, false}) {
     const ScratchFolder folder;
     RunOptions options;
@@ -430,7 +437,7 @@ TEST(Ramp, StagesAfterOneMayChangeOtherJoints) {
       return sim.motion.laws.rows[sim.motion.contacts.law[0]];
     };
     const Law one = law_of(after.sim), other = law_of(at_once.ready.sim);
-    EXPECT_EQ(one.peak_friction, other.peak_friction) << adds;
+    EXPECT_NEAR(one.peak_friction / other.peak_friction, 1.0, 1e-9) << adds;
     EXPECT_EQ(one.kn, other.kn) << adds;
     EXPECT_EQ(one.kn, adds ? 1e9 : std::lerp(1e9, 3e8, 0.5));
     const Vec2 apart = centroid(after.sim.motion.state.position, 1) -

@@ -38,14 +38,15 @@ std::string on_plane(const std::string& joints, const std::string& stages, bool 
     return '[' + text + ']';
   };
   return "gravity = [0, -9.8]\n[materials.rock]\ndensity = 2500\nyoung = 5e9\npoisson = 0.2\n" +
-         joints + "[contact]\njoint = 'fresh'\n[[block]]\nfixed = true\npolygon = " +
-         box(-9, 9, -1, 0) + "\n[[block]]\nname = 'slider'\npolygon = " + box(-1, 1, 0, 1) +
+         joints +
+         "[contact]\njoint = 'fresh'\n[[block]]\nfixed = true\npolygon = " + box(-9, 9, -1, 0) +
+         "\n[[block]]\nname = 'slider'\npolygon = " + box(-1, 1, 0, 1) +
          "\n[[stage]]\nuntil = 'equilibrium'\n" + stages;
 }
 
 std::string law(const char* name, double friction, double cohesion, const std::string& more = {}) {
-  return fmt::format("[joints.{}]\nfriction_angle = {}\ncohesion = {}\n{}", name, friction, cohesion,
-                     more);
+  return fmt::format("[joints.{}]\nfriction_angle = {}\ncohesion = {}\n{}", name, friction,
+                     cohesion, more);
 }
 
 const std::string ramped_change =
@@ -80,19 +81,18 @@ TEST(LawProgress, AChangeThatComesGraduallyFailsAtItsPart) {
     for (const bool mirrored : {false, true}) {
       const double from = c.cohesion * 2.0 + normal * tangent(c.friction),
                    to = c.to_cohesion * 2.0 + normal * tangent(c.to_friction);
-      const Ran r = ran(on_plane(
-          law("fresh", c.friction, c.cohesion) + law("worn", c.to_friction, c.to_cohesion),
-          ramped_change, mirrored));
-      expect_between(r,
-                     {101, c.which + std::string(mirrored ? ", mirrored" : ""), "part", ""},
+      const Ran r = ran(
+          on_plane(law("fresh", c.friction, c.cohesion) + law("worn", c.to_friction, c.to_cohesion),
+                   ramped_change, mirrored));
+      expect_between(r, {101, c.which + std::string(mirrored ? ", mirrored" : ""), "part", ""},
                      (from - along) / (from - to), 0.02);
     }
 }
 
 std::string decaying(double friction, double residual, const std::string& time) {
-  return law("fresh", friction, 0.0,
-             fmt::format("residual = {{ friction_angle = {} }}\ndecay_time = '{}'\n", residual,
-                         time));
+  return law(
+      "fresh", friction, 0.0,
+      fmt::format("residual = {{ friction_angle = {} }}\ndecay_time = '{}'\n", residual, time));
 }
 
 /// t = T ln((tan phi - tan phi_r)/(tan i - tan phi_r))
@@ -100,25 +100,26 @@ TEST(LawProgress, AJointFailsWhenItsStrengthHasDecayed) {
   for (const auto& [friction, residual] : {std::pair{40.0, 20.0}, {35.0, 28.0}})
     for (const bool mirrored : {false, true}) {
       const double exact =
-          30.0 * day * std::log((tangent(friction) - tangent(residual)) /
-                                (tangent(slope) - tangent(residual)));
+          30.0 * day *
+          std::log((tangent(friction) - tangent(residual)) / (tangent(slope) - tangent(residual)));
       const Ran r =
           ran(on_plane(decaying(friction, residual, "30 d"),
                        "[[stage]]\nuntil = 'collapse'\nramp = { time = ['0 d', '100 d'], steps = "
                        "50 }\n",
                        mirrored));
-      expect_between(r,
-                     {102,
-                      fmt::format("from {} to {} deg{}", friction, residual,
-                                  mirrored ? ", mirrored" : ""),
-                      "time", "s"},
-                     exact, 2.0 * day);
+      expect_between(
+          r,
+          {102,
+           fmt::format("from {} to {} deg{}", friction, residual, mirrored ? ", mirrored" : ""),
+           "time", "s"},
+          exact, 2.0 * day);
       EXPECT_NE(r.outcome.message.find(" s and fails at time = "), std::string::npos)
           << r.outcome.message;
     }
 }
 
-/// In a stage with a duration it begins to slide then, with the residual friction of a broken joint.
+/// In a stage with a duration it begins to slide then, with the residual friction of a broken
+/// joint.
 TEST(LawProgress, StrengthDecaysInTheTimeOfAStage) {
   const double duration = 1.0, decay = 0.8, a = radians(slope);
   const Ran r = ran(on_plane(decaying(40.0, 20.0, "0.8 s"),
@@ -127,8 +128,8 @@ TEST(LawProgress, StrengthDecaysInTheTimeOfAStage) {
       decay * std::log((tangent(40.0) - tangent(20.0)) / (tangent(slope) - tangent(20.0)));
   const Simulation& sim = r.ready.sim;
   const Vec2 u = centroid(sim.motion.state.position, 1) - centroid(sim.motion.state.reference, 1);
-  const double exact = 0.5 * g * (std::sin(a) - tangent(20.0) * std::cos(a)) *
-                       (duration - begins) * (duration - begins);
+  const double exact = 0.5 * g * (std::sin(a) - tangent(20.0) * std::cos(a)) * (duration - begins) *
+                       (duration - begins);
   expect_relative({102, "in time, 0.8 s", "distance slid", "m"}, norm(u), exact, 1e-2);
   EXPECT_LT(r.outcome.largest_energy_error, 1e-6);
 }
@@ -148,8 +149,8 @@ TEST(LawProgress, AChangeOverATime) {
   EXPECT_LT(r.outcome.largest_energy_error, 1e-6);
 }
 
-/// A block that hangs from a fixed one, by tensile strength of 100 kPa that falls to a tenth of what
-/// its weight needs; by a change and by decay. One that is grouted to it meanwhile carries it.
+/// A block that hangs from a fixed one, by tensile strength of 100 kPa that falls to a tenth of
+/// what its weight needs; by a change and by decay. One that is grouted to it meanwhile carries it.
 std::string hanging(const std::string& joints, const std::string& stages) {
   return "gravity = [0, -10]\n[materials.rock]\ndensity = 2000\nyoung = 1e10\npoisson = 0\n" +
          joints +
@@ -162,8 +163,8 @@ TEST(LawProgress, ABondInTensionFailsAtItsStrength) {
   const double needs = 2e4, whole = 1e5, left = 2e3;
   const std::string strong = law("fresh", 30, 1e6, "tensile_strength = 1e5\n"),
                     first = "[[stage]]\nuntil = 'equilibrium'\n";
-  const Ran change = ran(hanging(strong + law("worn", 30, 1e6, "tensile_strength = 2e3\n"),
-                                 first + ramped_change));
+  const Ran change = ran(
+      hanging(strong + law("worn", 30, 1e6, "tensile_strength = 2e3\n"), first + ramped_change));
   expect_between(change, {101, "tensile strength from 100 to 2 kPa", "part", ""},
                  (whole - needs) / (whole - left), 0.02);
   const Ran decay = ran(hanging(
@@ -183,19 +184,20 @@ TEST(LawProgress, GroutThatHardensCarries) {
       "ramp = { change = [0, 1], steps = 4 }\n[[stage]]\nuntil = 'equilibrium'\n"
       "reset_displacements = true\notherwise = 'stop'\ndeactivate = ['prop']\n";
   for (const double strength : {1e4, 4e4}) {
-    const Ran r = ran(hanging(
-        law("fresh", 30, 0) +
-            law("grouted", 30, 1e6, fmt::format("tensile_strength = {}\n", strength)),
-        prop));
+    const Ran r =
+        ran(hanging(law("fresh", 30, 0) +
+                        law("grouted", 30, 1e6, fmt::format("tensile_strength = {}\n", strength)),
+                    prop));
     EXPECT_EQ(r.outcome.status == Status::equilibrium, strength > 2e4) << r.outcome.message;
   }
 }
 
 /// Of two slabs on a gable whose joints have one law only that of the set that changes slides.
 TEST(LawProgress, OnlyTheJointsOfASetChange) {
-  const std::string gable = "gravity = [0, -9.8]\n[materials.rock]\ndensity = 2500\nyoung = 5e9\n"
-                            "poisson = 0.2\n" +
-                            law("fresh", 40, 0) + law("worn", 20, 0) + law("seam", 30, 0) + R"(
+  const std::string gable =
+      "gravity = [0, -9.8]\n[materials.rock]\ndensity = 2500\nyoung = 5e9\n"
+      "poisson = 0.2\n" +
+      law("fresh", 40, 0) + law("worn", 20, 0) + law("seam", 30, 0) + R"(
 [domain]
 outline = [[-6, 0], [6, 0], [6, 1], [0, 4.5], [-6, 1]]
 joint = 'fresh'
@@ -269,10 +271,11 @@ reset_displacements = true
 /// Nothing moves by it; what comes after it meets the stiffness that it has reached.
 TEST(LawProgress, AStiffnessThatChangesMovesNothing) {
   const std::string change = "change = [{ joints = 'fresh', to = 'worn'";
-  for (const auto& [stages, part] : {std::pair<std::string, double>{
-                                         change + " }]\nramp = { change = [0, 1], steps = 5 }\n", 1.0},
-                                     {change + " }]\nramp = { change = [0, 0.5], steps = 5 }\n", 0.5},
-                                     {change + ", over = 0.05 }]\nduration = 0.06\n", 1.0}}) {
+  for (const auto& [stages, part] :
+       {std::pair<std::string, double>{change + " }]\nramp = { change = [0, 1], steps = 5 }\n",
+                                       1.0},
+        {change + " }]\nramp = { change = [0, 0.5], steps = 5 }\n", 0.5},
+        {change + ", over = 0.05 }]\nduration = 0.06\n", 1.0}}) {
     PreparedRun ready = prepared(column(stages));
     double moved = 0.0;
     const Simulation& sim = ready.sim;
@@ -291,16 +294,16 @@ TEST(LawProgress, AStiffnessThatChangesMovesNothing) {
     EXPECT_LT(outcome.value().largest_energy_error, 1e-6);
     EXPECT_LT(moved, 1e-7) << stages;
     const Vec2 u = centroid(sim.motion.state.position, 2) - centroid(sim.motion.state.reference, 2);
-    expect_relative({101, fmt::format("{} of kn from 1 to 0.1 GPa/m", part), "settlement after it", "m"},
-                    -u.y, 2.0 * 5e4 / (1e9 - part * 9e8), 1e-3);
+    expect_relative(
+        {101, fmt::format("{} of kn from 1 to 0.1 GPa/m", part), "settlement after it", "m"}, -u.y,
+        2.0 * 5e4 / (1e9 - part * 9e8), 1e-3);
   }
 }
 
 /// The strength after a time is that of the law at this time, however many increments lead to it,
 /// and the factor of safety counts it.
 TEST(LawProgress, StrengthFollowsFromTheTimeAlone) {
-  const double exact =
-      tangent(20.0) + (tangent(40.0) - tangent(20.0)) * std::exp(-15.0 / 30.0);
+  const double exact = tangent(20.0) + (tangent(40.0) - tangent(20.0)) * std::exp(-15.0 / 30.0);
   const auto model = [](const std::string& ramps) {
     return on_plane(decaying(40.0, 20.0, "30 d"), ramps);
   };
@@ -325,10 +328,9 @@ TEST(LawProgress, DecayBeginsWithTheChange) {
   const std::string worn = law("worn", 40, 0,
                                "residual = { friction_angle = 20 }\ndecay_time = '30 d'\n"),
                     ten = "ramp = { time = ['0 d', '10 d'], steps = 2 }\n";
-  const Ran r = ran(on_plane(law("fresh", 45, 0) + worn,
-                             "[[stage]]\n" + ten +
-                                 "[[stage]]\nchange = [{ joints = 'fresh', to = 'worn' }]\n" +
-                                 ten));
+  const Ran r = ran(on_plane(
+      law("fresh", 45, 0) + worn,
+      "[[stage]]\n" + ten + "[[stage]]\nchange = [{ joints = 'fresh', to = 'worn' }]\n" + ten));
   EXPECT_EQ(r.outcome.status, Status::equilibrium) << r.outcome.message;
   const Simulation& sim = r.ready.sim;
   ASSERT_GT(sim.motion.contacts.size(), 0u);
@@ -338,9 +340,10 @@ TEST(LawProgress, DecayBeginsWithTheChange) {
 
 /// Changes there and back count on from what has been reached.
 TEST(LawProgress, ChangesFollowEachOther) {
-  const std::string half = "ramp = { change = [0, 0.5], steps = 2 }\n",
-                    there = "[[stage]]\nuntil = 'equilibrium'\nchange = [{ joints = 'fresh', to = 'worn' }]\n",
-                    back = "[[stage]]\nuntil = 'equilibrium'\nchange = [{ joints = 'worn', to = 'fresh' }]\n";
+  const std::string
+      half = "ramp = { change = [0, 0.5], steps = 2 }\n",
+      there = "[[stage]]\nuntil = 'equilibrium'\nchange = [{ joints = 'fresh', to = 'worn' }]\n",
+      back = "[[stage]]\nuntil = 'equilibrium'\nchange = [{ joints = 'worn', to = 'fresh' }]\n";
   const std::string laws = law("fresh", 40, 0) + law("worn", 31, 0);
   const double a = tangent(40.0), b = tangent(31.0), m = 0.5 * (a + b);
   for (const auto& [stages, exact] : {std::pair<std::string, double>{there + half, m},

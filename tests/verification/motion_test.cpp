@@ -342,7 +342,7 @@ polygon = )" + polygon + "\n[solver]\nduration = 1.25\nmass = '" +
 
 INSTANTIATE_TEST_SUITE_P(Masses, Rocking,
                          ::testing::Values(std::pair{"matched", 0.8}, std::pair{"consistent", 0.8},
-                                         std::pair{"covering", 0.8}),
+                                           std::pair{"covering", 0.8}),
                          [](const auto& test) { return std::string(test.param.first); });
 
 }  // namespace
