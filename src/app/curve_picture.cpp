@@ -15,6 +15,8 @@ std::string axis_of(const std::string& vary) {
   if (vary == "kh" || vary == "kv") return "seismic coefficient " + vary;
   if (vary == "strength") return "strength divided by";
   if (vary == "flow") return "time of the flow (s)";
+  if (vary == "time") return "time of the joints (s)";
+  if (vary == "change") return "part of the change (-)";
   return "multiplier of " + (vary == "gravity" ? vary : vary.substr(vary.find(':') + 1));
 }
 

@@ -105,6 +105,10 @@ SteppedValue* slow_value(SlowLoading& slow, Varied varied, Index target) {
       return &slow.gravity;
     case Varied::flow:
       return &slow.flow;
+    case Varied::change:
+      return &slow.change;
+    case Varied::time:
+      return &slow.time;
     case Varied::load:
       return &slow.loads[row];
     case Varied::water:

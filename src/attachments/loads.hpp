@@ -134,6 +134,8 @@ struct SlowLoading {
   SteppedValue kh_back, kv_back, tilt_back;  ///< the same to the left and downwards
   SteppedValue gravity{1., 1.};              ///< multiplier of the weight
   SteppedValue flow;                         ///< s, time of the flow in joints
+  SteppedValue change;  ///< part of the changes of joint laws of the present stage
+  SteppedValue time;    ///< s, time of joints in the ramp of the present stage
   /// Multipliers, [rows of Model::loads], of Model::waters and of Model::boundaries.
   std::vector<SteppedValue> loads, waters, boundaries;
 };

@@ -7,13 +7,19 @@
 namespace edda {
 namespace {
 
-/// Whether a point, in model coordinates, lies where the change is made.
+/// Whether the change is made there.
 class Reach {
  public:
-  Reach(const Model& model, const PropertyChange& change) : change_(change) {
+  Reach(const BlockSet& b, const Model& model, const PropertyChange& change) : change_(change) {
     if (change.opening != none)
       around_ = model.openings[static_cast<std::size_t>(change.opening)].polygon;
+    for (const std::string& table : b.tables) cut_.push_back(has_cut(model, table));
   }
+  /// Of the lines from this row of BlockSet::tables, or none.
+  bool has(Index table) const {
+    return change_.set.empty() || (table != none && cut_[static_cast<std::size_t>(table)]);
+  }
+  /// In model coordinates.
   bool has(Vec2 p) const {
     const Ring& region = change_.region;
     if (!region.empty() && side_of({&region, 1}, p, 0.0) < 0) return false;
@@ -26,8 +32,17 @@ class Reach {
   }
 
  private:
+  bool has_cut(const Model& model, const std::string& table) const {
+    const auto is_it = [&](const auto& lines) {
+      return lines.name == change_.set && lines.where.key == table;
+    };
+    return std::any_of(model.joint_sets.begin(), model.joint_sets.end(), is_it) ||
+           std::any_of(model.networks.begin(), model.networks.end(), is_it);
+  }
+
   const PropertyChange& change_;
   Ring around_;
+  std::vector<bool> cut_;  // [rows of BlockSet::tables]
 };
 
 }  // namespace
@@ -35,7 +50,7 @@ class Reach {
 std::vector<std::uint8_t> change_properties(BlockSet& b, const Model& model,
                                             const PropertyChange& change,
                                             const std::vector<std::uint8_t>& linings) {
-  const Reach reach(model, change);
+  const Reach reach(b, model, change);
   std::vector<std::uint8_t> changed(b.vertex_count(), 0);
   if (change.material != none) {
     for (std::size_t i = 0; i < b.size(); ++i) {
@@ -52,9 +67,11 @@ std::vector<std::uint8_t> change_properties(BlockSet& b, const Model& model,
     if (b.unnamed_joint.empty()) b.unnamed_joint.assign(b.vertex_count(), model.contact.joint);
     for (Id e = 0; e < b.vertex_count(); ++e) {
       Index& joint = b.edge_joint[e] != none ? b.edge_joint[e] : b.unnamed_joint[e];
-      if (joint != change.joints) continue;
+      const auto becomes = std::find_if(change.laws.begin(), change.laws.end(),
+                                        [&](const auto& law) { return law.first == joint; });
+      if (becomes == change.laws.end() || !reach.has(b.edge_table[e])) continue;
       if (!reach.has(0.5 * (b.vertex(e) + b.vertex(b.next[e])) + b.origin)) continue;
-      joint = change.row;
+      joint = becomes->second;
       changed[e] = 1;
     }
   }

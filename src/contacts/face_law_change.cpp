@@ -25,6 +25,10 @@ bool is_whole(const FaceSet& c, const Law& law, std::size_t k) {
   return !may_weaken(law) || c.bond(k) == BondState::intact;
 }
 
+bool is_flush(const FaceSet& c, const BlockSet& b, const Face& face, std::size_t k) {
+  return std::min(face.closure.a, face.closure.b) >= -touching_gap * smaller_size(c, b, k);
+}
+
 /// The strength of the new law, by what has become of the face so far.
 void take_strength(FaceSet& c, const BlockSet& b, const Pose& pose, const LawTable& laws,
                    const Before& was, const Face& face) {
@@ -42,9 +46,9 @@ void take_strength(FaceSet& c, const BlockSet& b, const Pose& pose, const LawTab
                              : BondState::unbonded,
            started, k);
   c.set(FaceFlag::glued, k, whole && law.glued);
-  const bool flush =
-      std::min(face.closure.a, face.closure.b) >= -touching_gap * smaller_size(c, b, k);
-  if (whole) c.set(FaceFlag::carries_tension, k, flush && (law.glued || law.peak_tension > 0.0));
+  if (whole)
+    c.set(FaceFlag::carries_tension, k,
+          is_flush(c, b, face, k) && (law.glued || law.peak_tension > 0.0));
 }
 
 /// Lets the face carry what it has carried with its new stiffness.
@@ -86,6 +90,36 @@ void change_laws(FaceSet& c, FaceStates& states, const BlockSet& old, const Bloc
     take_strength(c, b, pose, laws, was, face);
     keep_forces(c, states, b, pose, was, face);
   }
+}
+
+namespace {
+
+bool is_as_stiff(const Law& a, const Law& b) {
+  return a.kn == b.kn && a.ks == b.ks;
+}
+
+}  // namespace
+
+bool is_as_stiff(const LawTable& old, const LawTable& laws) {
+  return std::equal(old.rows.begin(), old.rows.end(), laws.rows.begin(),
+                    [](const Law& a, const Law& b) { return is_as_stiff(a, b); });
+}
+
+void follow_laws(FaceSet& c, FaceStates& states, const BlockSet& b, const Pose& pose,
+                 const LawTable& old, const LawTable& laws) {
+  std::vector<Before> change;
+  for (std::size_t k = 0; k < c.size(); ++k) {
+    const Law &was = old.rows[c.law[k]], &law = laws.rows[c.law[k]];
+    if (!is_as_stiff(was, law))
+      change.push_back({k, c.law[k], c.stiffness[k], c.shear_stiffness[k]});
+    if (c.bond(k) == BondState::intact && was.peak_tension == 0.0 && law.peak_tension > 0.0 &&
+        is_flush(c, b, face_at(c, b, pose.x, pose.y, k), k))
+      c.set(FaceFlag::carries_tension, k);
+  }
+  if (change.empty()) return;
+  complete_faces(c, b, laws);
+  for (const Before& was : change)
+    keep_forces(c, states, b, pose, was, face_at(c, b, pose.x, pose.y, was.face));
 }
 
 }  // namespace edda

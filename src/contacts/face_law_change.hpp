@@ -24,4 +24,11 @@ namespace edda {
 void change_laws(FaceSet& faces, FaceStates& states, const BlockSet& old, const BlockSet& blocks,
                  const Pose& pose, const LawTable& laws, const std::vector<std::uint8_t>& changed);
 
+/// Whether all laws have the stiffness that they have had.
+bool is_as_stiff(const LawTable& old, const LawTable& laws);
+/// The laws have changed from `old` to `laws`: forces go on with the new stiffness, and bonds that
+/// have got tensile strength carry tension.
+void follow_laws(FaceSet& faces, FaceStates& states, const BlockSet& blocks, const Pose& pose,
+                 const LawTable& old, const LawTable& laws);
+
 }  // namespace edda

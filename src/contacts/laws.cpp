@@ -48,13 +48,80 @@ Index law_of(const std::vector<LawTable::Pair>& pairs, Index a, Index b) {
   return found != pairs.end() && found->between == between ? found->law : none;
 }
 
+void lose_strength(const JointLaw& j, double time, Law& law) {
+  if (!j.decay_time) return;
+  const double left = std::exp(-time / *j.decay_time);
+  const auto lose = [&](double& peak, double residual) { peak = std::lerp(residual, peak, left); };
+  lose(law.peak_friction, law.residual_friction);
+  lose(law.peak_cohesion, law.residual_cohesion);
+  lose(law.peak_tension, law.residual_tension);
+}
+
+constexpr double Law::*changing[] = {
+    &Law::peak_friction,     &Law::peak_cohesion,    &Law::peak_tension, &Law::residual_friction,
+    &Law::residual_cohesion, &Law::residual_tension, &Law::kn,           &Law::ks};
+
+/// Brings the laws to where they have come in time. Those from which others change come before
+/// these.
+void make_progress(const Model& model, const LawProgress& progress, std::vector<Law>& rows) {
+  const auto at = [](const std::vector<double>& values, std::size_t r) {
+    return values.empty() ? 0.0 : values[r];
+  };
+  for (std::size_t r = 0; r < model.joints.size(); ++r) {
+    const JointLaw& j = model.joints[r];
+    lose_strength(j, progress.time - (j.change ? at(progress.since, r) : 0.0), rows[r]);
+    if (!j.change || j.change->from == none) continue;
+    const Law& from = rows[static_cast<std::size_t>(j.change->from)];
+    rows[r].loses_peak = may_weaken(from) || may_weaken(rows[r]);
+    for (const auto value : changing)
+      rows[r].*value = std::lerp(from.*value, rows[r].*value, at(progress.part, r));
+  }
+}
+
+/// LawTable::rank; a law that changes is as strong as the weaker one of the two.
+std::vector<std::uint16_t> ranks(const Model& model) {
+  using Key = std::tuple<bool, double, double, double, std::string, std::size_t>;
+  std::vector<Key> keys;
+  for (std::size_t r = 0; r < model.joints.size(); ++r) {
+    const JointLaw& j = model.joints[r];
+    // A glued joint is the strongest of all.
+    Key own{j.type == LawType::glued,
+            j.peak.friction_angle,
+            j.peak.cohesion,
+            j.peak.tensile_strength,
+            j.name,
+            r};
+    if (j.change && j.change->from != none) {
+      own = std::min(own, keys[static_cast<std::size_t>(j.change->from)]);
+      std::get<std::size_t>(own) = r;
+    }
+    keys.push_back(std::move(own));
+  }
+  std::sort(keys.begin(), keys.end());
+  std::vector<std::uint16_t> rank(keys.size());
+  for (std::size_t place = 0; place < keys.size(); ++place)
+    rank[std::get<std::size_t>(keys[place])] = static_cast<std::uint16_t>(place);
+  return rank;
+}
+
+/// LawTable::named of the laws of the model.
+std::vector<std::uint16_t> named_laws(const Model& model) {
+  std::vector<std::uint16_t> named;
+  for (std::size_t r = 0; r < model.joints.size(); ++r) {
+    const auto& change = model.joints[r].change;
+    named.push_back(static_cast<std::uint16_t>(change ? static_cast<std::size_t>(change->to) : r));
+  }
+  return named;
+}
+
 }  // namespace
 
-LawTable build_laws(const Model& model) {
+LawTable build_laws(const Model& model, const LawProgress& progress) {
   LawTable table;
   table.penalty = contact_springs(model);
   table.thickness = model.thickness;
   table.default_law = model.contact.joint;
+  table.progress = progress;
   for (const JointLaw& j : model.joints) {
     table.rows.push_back({tangent(j.peak.friction_angle), j.peak.cohesion, j.peak.tensile_strength,
                           tangent(j.residual.friction_angle), j.residual.cohesion,
@@ -72,21 +139,11 @@ LawTable build_laws(const Model& model) {
     }
     table.any_changes = table.any_changes || table.rows.back().changes;
     table.any_softens = table.any_softens || table.rows.back().softens;
+    table.rows.back().loses_peak = j.decay_time && may_weaken(table.rows.back());
   }
-  std::vector<std::uint16_t> order(table.rows.size());
-  std::iota(order.begin(), order.end(), std::uint16_t{0});
-  auto key = [&](std::uint16_t r) {
-    const JointLaw& j = model.joints[r];
-    // A glued joint is the strongest of all.
-    return std::make_tuple(j.type == LawType::glued, j.peak.friction_angle, j.peak.cohesion,
-                           j.peak.tensile_strength, j.name);
-  };
-  std::sort(order.begin(), order.end(),
-            [&](std::uint16_t a, std::uint16_t b) { return key(a) < key(b); });
-  table.rank.resize(table.rows.size());
-  for (std::size_t place = 0; place < order.size(); ++place) {
-    table.rank[order[place]] = static_cast<std::uint16_t>(place);
-  }
+  make_progress(model, progress, table.rows);
+  table.rank = ranks(model);
+  table.named = named_laws(model);
   for (const ContactPair& pair : model.pairs) {
     add_pair(table.joint_pairs, pair.joints, pair.joint);
     add_pair(table.material_pairs, pair.materials, pair.joint);
@@ -98,6 +155,7 @@ LawTable build_laws(const Model& model) {
   }
   table.rows.push_back({0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, true});
   table.rank.push_back(static_cast<std::uint16_t>(table.rank.size()));
+  table.named.push_back(static_cast<std::uint16_t>(table.named.size()));
   table.divided_by.assign(table.rows.size(), 1.0);
   return table;
 }
@@ -156,8 +214,11 @@ std::uint16_t LawTable::resolve(Index edge, Index facing) const {
 std::uint16_t LawTable::resolve(Index edge, Index facing, Index edge_material,
                                 Index facing_material) const {
   if (!joint_pairs.empty()) {
-    const Index law = law_of(joint_pairs, edge == none ? default_law : edge,
-                             facing == none ? default_law : facing);
+    const auto as_named = [&](Index joint) {
+      const Index law = joint == none ? default_law : joint;
+      return law == none ? none : static_cast<Index>(named[static_cast<std::size_t>(law)]);
+    };
+    const Index law = law_of(joint_pairs, as_named(edge), as_named(facing));
     if (law != none) return static_cast<std::uint16_t>(law);
   }
   if (!material_pairs.empty()) {

@@ -30,6 +30,7 @@ struct Law {
   double jrc = 0.0, jcs = 0.0, residual_angle = 0.0;  ///< -, Pa, degrees
   // Fracture energy (contacts/face_softening.hpp).
   bool softens = false;
+  bool loses_peak = false;  ///< may_weaken() of one of the laws between which it changes
   double crack_opening = 0.0, crack_slip = 0.0;  ///< w_c and s_c, m
 };
 
@@ -42,8 +43,9 @@ inline bool dilates(const Law& law) {
 /// Whether faces of this law that touch have a strength that they may lose: a bond, or that of slip
 /// weakening.
 inline bool may_weaken(const Law& law) {
-  return law.type == LawType::slip_weakening || law.glued || law.peak_cohesion > 0.0 ||
-         law.peak_tension > 0.0 || law.peak_friction > law.residual_friction;
+  return law.loses_peak || law.type == LawType::slip_weakening || law.glued ||
+         law.peak_cohesion > 0.0 || law.peak_tension > 0.0 ||
+         law.peak_friction > law.residual_friction;
 }
 
 /// The two edges of a face, as far as its penalty stiffness depends on them.
@@ -58,6 +60,14 @@ FaceSides sides_of(const BlockSet& blocks, Id edge, Id facing);
 /// The same against a much larger block, with the largest compliance that sides_of() allows.
 FaceSides beside_much_larger(const BlockSet& blocks, Id edge);
 
+/// How far the laws have come that change in time (LawChange, JointLaw::decay_time).
+struct LawProgress {
+  double time = 0.0;          ///< s, that joints have had so far
+  std::vector<double> part;   ///< [rows of Model::joints] of the change, 0 to 1
+  std::vector<double> since;  ///< the same: `time` when the change began, s
+  bool operator==(const LawProgress&) const = default;
+};
+
 struct LawTable {
   std::vector<Law> rows;  ///< those of Model::joints, and last the intact rock, which no face has
   std::vector<std::uint16_t>
@@ -71,6 +81,9 @@ struct LawTable {
   ContactSprings penalty{};   ///< of joints without kn
   double thickness = 1.0;
   Index default_law = none;
+  std::vector<std::uint16_t>
+      named;             ///< [rows] the law that the model gives and that it has, or is to have
+  LawProgress progress;  ///< in `rows`
   /// A [[contact_pair]]: two joints or two materials, the smaller index first, with their law;
   /// sorted.
   struct Pair {
@@ -106,7 +119,11 @@ struct LawTable {
   }
 };
 
-LawTable build_laws(const Model& model);
+/// With the strength that the laws have had time to lose, or have by their changes (theory, section
+/// 5.10): s strength, T decay_time, t the time since the joints have had the law, f the part of the
+/// change.
+///  s_residual + (s_peak - s_residual) exp(-t/T),  s_from + f (s_to - s_from)
+LawTable build_laws(const Model& model, const LawProgress& progress = {});
 
 /// Law of a face between two edges that lie against each other as drawn, or have met since: that
 /// which a lining or fill names for itself, whatever the other names; else resolve() or

@@ -53,8 +53,9 @@ StrengthInForce coulomb(const Law& law, BondState bond, double slip) {
 
 }  // namespace
 
-LawTable divided_laws(const Model& model, const std::vector<double>& factors) {
-  LawTable laws = build_laws(model);
+LawTable divided_laws(const Model& model, const std::vector<double>& factors,
+                      const LawProgress& progress) {
+  LawTable laws = build_laws(model, progress);
   laws.divided_by = factors;
   for (std::size_t r = 0; r < laws.rows.size(); ++r) {
     Law& law = laws.rows[r];

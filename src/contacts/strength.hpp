@@ -22,9 +22,10 @@
 
 namespace edda {
 
-/// The laws of the model with their strength divided by factors[row]; of glued rows it has no
-/// effect. factors: [rows], above zero.
-LawTable divided_laws(const Model& model, const std::vector<double>& factors);
+/// The laws of the model where they have come in time, with their strength divided by factors[row];
+/// of glued rows it has no effect. factors: [rows], above zero.
+LawTable divided_laws(const Model& model, const std::vector<double>& factors,
+                      const LawProgress& progress = {});
 
 /// What the strength of a face depends on beside its law and its bond.
 struct StrengthInputs {

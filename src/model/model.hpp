@@ -118,6 +118,15 @@ struct LawDashpots {
 };
 
 /// The contact law of a joint (theory, section 5).
+/// How joints of one law have come to have another, where they do not have it as it is given: they
+/// change gradually, or it decays from then on. Not a key: found from the changes of stages.
+struct LawChange {
+  Index from = none;      ///< none: they have changed at once
+  Index to = none;        ///< a law that the model gives
+  std::size_t stage = 0;  ///< at whose start they begin to change
+  double over = 0.0;      ///< s, of that stage; 0: by its ramp
+};
+
 struct JointLaw {
   std::string name;
   LawType type = LawType::coulomb;
@@ -129,6 +138,7 @@ struct JointLaw {
   std::optional<double> fracture_energy, shear_fracture_energy;
   std::optional<double> jrc, jcs;  ///< roughness (-), strength of the walls (Pa); barton-bandis
   std::optional<double> residual_angle;  ///< degrees; barton-bandis
+  std::optional<double> decay_time;      ///< s: in which 1 - 1/e of peak less residual is lost
   std::optional<double> kn;              ///< Pa/m; without it a penalty (contact_springs.hpp)
   std::optional<double> ks;        ///< Pa/m; filled with 0.4 kn where kn is given and ks is not
   std::optional<double> aperture;  ///< m, as drawn, of [flow]; 0: watertight
@@ -136,6 +146,7 @@ struct JointLaw {
   std::optional<double> largest_aperture;   ///< m, for its discharge; empty: ten times as much
   std::optional<Restitution> restitution;
   std::optional<LawDashpots> dashpots{};  ///< not a key: found from `restitution`
+  std::optional<LawChange> change{};      ///< of laws that stages add, the last of Model::joints
   Where where;
 };
 

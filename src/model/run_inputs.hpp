@@ -25,7 +25,20 @@ enum class StageJoints { as_given, glued };
 enum class StageMasses { as_given, scaled };
 enum class FallingBlocks { report, wait };
 enum class LooseBlocks { go_on, stop };
-enum class Varied { strength, load, shaking, water, tilt, kh, kv, gravity, boundary, flow };
+enum class Varied {
+  strength,
+  load,
+  shaking,
+  water,
+  tilt,
+  kh,
+  kv,
+  gravity,
+  boundary,
+  flow,
+  change,
+  time
+};
 
 /// Rayleigh damping: in proportion to mass and stiffness, least at one frequency.
 struct Rayleigh {
@@ -101,10 +114,14 @@ struct PropertyChange {
   Index joints = none, material = none;  ///< those that change: one of the two
   std::string to;                        ///< a law of joints, or a material
   Index row = none;                      ///< its row
+  std::string set;                       ///< only joints of these joint sets or fracture networks
   std::vector<Vec2> region;              ///< only within this polygon, as drawn; empty: everywhere
   std::string around;                    ///< only so far from this opening, as drawn
   double distance = 0.0;                 ///< m
   Index opening = none;                  ///< `around`
+  double over = 0.0;                     ///< s of a stage with a duration; 0: at once
+  /// Of joints: each law that changes, and what it becomes (LawChange).
+  std::vector<std::pair<Index, Index>> laws{};
   Where where;
 };
 

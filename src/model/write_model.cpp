@@ -172,6 +172,7 @@ std::string toml_value(const Key& key, const Slot& slot, const Model& model) {
 
 std::string to_toml(const Model& model) {
   Model copy = model;  // slots reach fields to fill them, too
+  std::erase_if(copy.joints, [](const JointLaw& law) { return law.change.has_value(); });
   return to_toml(sections(), &copy, copy);
 }
 

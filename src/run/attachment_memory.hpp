@@ -128,7 +128,8 @@ bool list_stepped(Archive& a, const std::string& of, std::vector<SteppedValue>& 
 template <class Archive>
 void list_slow_loading(Archive& a, Simulation& s) {
   SlowLoading& slow = s.attached.loads.slow;
-  std::vector<SteppedValue> gravity{slow.kh, slow.kv, slow.tilt, slow.gravity, slow.flow};
+  std::vector<SteppedValue> gravity{slow.kh,   slow.kv,     slow.tilt, slow.gravity,
+                                    slow.flow, slow.change, slow.time};
   bool fits = list_stepped(a, "slow.gravity", gravity);
   fits = list_stepped(a, "slow.loads", slow.loads) && fits;
   fits = list_stepped(a, "slow.waters", slow.waters) && fits;
@@ -140,6 +141,8 @@ void list_slow_loading(Archive& a, Simulation& s) {
     slow.tilt = gravity[2];
     slow.gravity = gravity[3];
     slow.flow = gravity[4];
+    slow.change = gravity[5];
+    slow.time = gravity[6];
   }
 }
 

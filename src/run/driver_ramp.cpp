@@ -63,8 +63,9 @@ Trouble Driver::write_curve() {
 
 std::string Driver::ramp_at(int increment) const {
   const Ramp& ramp = *stage().ramp;
+  const bool is_time = ramp.varied == Varied::flow || ramp.varied == Varied::time;
   return fmt::format("{} = {:.6g}{}", ramp.what.vary, ramp_value(ramp, increment),
-                     ramp.varied == Varied::flow ? " s" : "");
+                     is_time ? " s" : "");
 }
 
 std::string Driver::end_of_ramp(bool holds) const {

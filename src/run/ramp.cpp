@@ -100,7 +100,9 @@ Vec2 ramped_force(const Simulation& sim, const Instant& at, const Ramp& ramp) {
   const Loads& loads = sim.attached.loads;
   const double time = sim.motion.state.time;
   Vec2 sum;
-  if (ramp.varied == Varied::strength || ramp.varied == Varied::flow) return sum;
+  constexpr Varied no_loads[] = {Varied::strength, Varied::flow, Varied::change, Varied::time};
+  if (std::find(std::begin(no_loads), std::end(no_loads), ramp.varied) != std::end(no_loads))
+    return sum;
   if (ramp.varied == Varied::boundary)
     return reactions(sim, at)[static_cast<std::size_t>(ramp.target)];
   const bool weight = ramp.target == none;

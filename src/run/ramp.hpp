@@ -59,7 +59,7 @@ void begin_increment(RampProgress& ramp, Simulation& sim, const Stage& stage);
 Verdict look_at_increment(RampProgress& ramp, Simulation& sim, const Stage& stage);
 
 /// Sum of what is varied on all free blocks at that instant, N: the load, the pressure of the
-/// water, the reaction at the boundary, or the weight; zero for strength.
+/// water, the reaction at the boundary, or the weight; zero for what is no load.
 Vec2 ramped_force(const Simulation& sim, const Instant& at, const Ramp& ramp);
 
 /// Of each ramp so far.

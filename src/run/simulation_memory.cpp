@@ -73,6 +73,12 @@ void list_state(Archive& a, Simulation& s) {
   }
   a("dynamic", s.motion.dynamic);
   a("laws.divided_by", s.motion.laws.divided_by);
+  a("laws.time", s.motion.laws.progress.time);
+  a("laws.part", s.motion.laws.progress.part);
+  a("laws.since", s.motion.laws.progress.since);
+  a("law_course.stage", s.motion.law_course.stage);
+  a("law_course.began", s.motion.law_course.began);
+  a("law_course.time", s.motion.law_course.time);
   a("state.alive", s.motion.state.alive);
   a("state.turns", s.motion.state.turns);
   a("state.time", s.motion.state.time);
@@ -251,6 +257,22 @@ void examine(Examiner& j, const Simulation& s, const FaceStates& faces) {
   if (j.flaw().empty()) examine_places(j, s);
 }
 
+/// The stages to come may be others than those of the run before, and the laws that they add, the
+/// last before that of the rock: no face has one of these yet.
+void fit_laws(Simulation& sim) {
+  const std::size_t joints = sim.scene->model.joints.size();
+  for (auto* of : {&sim.motion.laws.progress.part, &sim.motion.laws.progress.since}) {
+    if (!of->empty()) of->resize(joints);
+  }
+  for (auto* of :
+       {&sim.motion.laws.divided_by, &sim.relaxation.strength_from, &sim.relaxation.strength_to}) {
+    if (of->empty()) continue;
+    const double rock = of->back();
+    of->resize(joints, rock);
+    of->push_back(rock);
+  }
+}
+
 }  // namespace
 
 template <class Archive>
@@ -301,13 +323,18 @@ std::string recall(Simulation& sim, const Record& record) {
   FaceStates faces;
   list_memory(loader, sim, faces);
   if (!loader.flaw().empty()) return loader.flaw();
+  fit_laws(sim);
   const std::vector<double> factors = sim.motion.laws.divided_by;
   if (factors.size() != sim.motion.laws.rows.size() ||
       !std::all_of(factors.begin(), factors.end(),
                    [](double f) { return f > 0.0 && std::isfinite(f); })) {
     return "laws.divided_by is not of these laws";
   }
-  sim.motion.laws = divided_laws(sim.scene->model, factors);
+  if (sim.motion.law_course.stage > 0 &&
+      sim.motion.law_course.stage >= sim.scene->model.stages.size())
+    return "law_course.stage is none of the model";
+  const LawProgress progress = sim.motion.laws.progress;
+  sim.motion.laws = divided_laws(sim.scene->model, factors, progress);
   sim.motion.zones.material = divided_strength(sim.scene->zones, sim.motion.laws.rock_divided_by());
   Examiner j;
   examine(j, sim, faces);

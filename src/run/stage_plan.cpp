@@ -9,6 +9,7 @@
 #include "run/ramp.hpp"
 #include "run/stages.hpp"
 #include "step/changes.hpp"
+#include "step/law_progress.hpp"
 #include "step/simulation.hpp"
 
 namespace edda {
@@ -23,8 +24,9 @@ Index owner_called(const Model& model, const std::string& name) {
   return static_cast<Index>(found - model.openings.begin());
 }
 
-StagePlan plan_of(const Model& model, const Stage& stage) {
+StagePlan plan_of(const Model& model, const Stage& stage, std::size_t row) {
   StagePlan plan{stage,
+                 row,
                  rows_called(model, stage.deactivate),
                  rows_called(model, stage.activate),
                  bolts_called(model, stage.install),
@@ -123,10 +125,11 @@ Faults idle_changes(const Scene& scene) {
       const auto row = static_cast<std::size_t>(joints ? change.joints : change.material);
       faults.push_back(
           {change.where,
-           fmt::format("changes nothing: there {} \"{}\" by then",
+           fmt::format("changes nothing: there {} \"{}\"{} by then",
                        joints ? "are no joints of law" : "is no rock and no lining of material",
-                       joints ? model.joints[row].name : model.materials[row].name),
-           "check its name, region and distance, and the changes before it"});
+                       joints ? model.joints[row].name : model.materials[row].name,
+                       change.set.empty() ? "" : " in set \"" + change.set + '"'),
+           "check its name, set, region and distance, and the changes before it"});
     }
   }
   return faults;
@@ -164,7 +167,7 @@ void set_ramp(Simulation& sim, const Stage& stage, double value) {
 
 std::vector<StagePlan> plan_stages(const Model& model) {
   std::vector<StagePlan> plans;
-  for (const Stage& stage : stages_of(model)) plans.push_back(plan_of(model, stage));
+  for (const Stage& stage : stages_of(model)) plans.push_back(plan_of(model, stage, plans.size()));
   return plans;
 }
 
@@ -179,6 +182,7 @@ std::optional<Fault> enter_stage(Simulation& sim, const StagePlan& given, bool f
   // Excavate before boundaries take over from each other, so that a boundary takes over the forces
   // after excavation.
   excavate_openings(sim, plan);
+  begin_law_changes(sim, plan.row);
   for (const PropertyChange& change : stage.change) change_properties(sim, change);
   // Joints whose aperture has changed keep the pressure of their water; all else that changes now
   // finds what they contain.

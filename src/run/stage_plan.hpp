@@ -16,6 +16,7 @@ struct Simulation;
 /// A stage, with the rows of the names in it.
 struct StagePlan {
   Stage stage;
+  std::size_t row = 0;                          ///< of Model::stages
   NamedRows off, on;                            ///< what it deactivates and activates
   std::vector<Index> bolts;                     ///< rows of all_bolts() that it installs
   std::vector<Index> linings;                   ///< rows of Model::linings that it installs

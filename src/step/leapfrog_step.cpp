@@ -11,6 +11,7 @@
 #include "step/contact_search.hpp"
 #include "step/force_jumps.hpp"
 #include "step/instant.hpp"
+#include "step/law_progress.hpp"
 #include "step/leapfrog_motion.hpp"
 #include "step/load_work.hpp"
 #include "step/simulation.hpp"
@@ -223,6 +224,7 @@ std::optional<Failure> leap(Simulation& sim, const LeapContacts& contacts) {
   if (sim.motion.state.steps % steps_between_flows == 0 &&
       sim.attached.loads.flow == JointFlow::steady)
     update_flow(sim);
+  update_laws(sim);
   adjust_step(sim);
   clock.lap(seconds.search);
   return inspect(sim);

@@ -15,11 +15,20 @@
 
 namespace edda {
 
+/// By what the laws of joints change at present (LawProgress).
+struct LawCourse {
+  std::size_t stage = 0;  ///< row of Model::stages
+  double began = 0.0;     ///< s, time of the model at its start
+  double time = 0.0;      ///< s, LawProgress::time then
+  bool held = false;      ///< they stay as they are: a trial
+};
+
 struct Motion {
   State state;
   Pose pose;
-  Masses masses;            ///< in force
-  LawTable laws;            ///< with the strength in force
+  Masses masses;  ///< in force
+  LawTable laws;  ///< with the strength in force
+  LawCourse law_course;
   FaceSet contacts;         ///< the list of faces, and what is decided of them
   TiledFaces tiled;         ///< and their states
   BodyVectors on_contacts;  ///< forces of the contacts at n on the blocks, N; in steps of fixed

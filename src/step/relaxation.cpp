@@ -376,7 +376,7 @@ void stop_gradual_change(Simulation& sim) {
   SlowLoading& slow = loads.slow;
   const double time = sim.motion.state.time;
   for (SteppedValue* v : {&slow.kh, &slow.kv, &slow.tilt, &slow.kh_back, &slow.kv_back,
-                          &slow.tilt_back, &slow.gravity})
+                          &slow.tilt_back, &slow.gravity, &slow.change, &slow.time})
     v->stop(time, loads.gradual);
   for (auto* of : {&slow.loads, &slow.waters}) {
     for (SteppedValue& v : *of) v.stop(time, loads.gradual);

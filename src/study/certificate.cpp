@@ -45,7 +45,7 @@ Simulation with_faces_within(const Simulation& sim, double distance) {
 /// others what is more.
 std::vector<RigidStrength> strength_now(const Simulation& now, const RigidBlocks& rigid,
                                         const std::vector<double>& divided_by) {
-  const LawTable laws = build_laws(now.scene->model);
+  const LawTable laws = build_laws(now.scene->model, now.motion.laws.progress);
   std::vector<RigidStrength> all =
       joint_strengths(rigid, laws, divided_by, StrengthOf::residual, false);
   const std::vector<RigidStrength> peak =

@@ -196,6 +196,7 @@ Result<Staged> staged(const Model& model, const Fos& fos, const FosOptions& opti
   made.start.as_drawn = drawn.sets(sim, moved_little, sim.relaxation.loose).empty();
   // Trials are of this instant: what moves on trial does not change the water.
   if (JointFlow& flow = sim.attached.loads.flow; flow == JointFlow::timed) flow = JointFlow::held;
+  sim.motion.law_course.held = true;
   made.start.sim = std::move(sim);
   if (ended) made.stage = *ended + (status == Status::failed ? 1 : 0);  // during the next stage
   FosStart& s = made.start;

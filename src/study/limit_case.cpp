@@ -40,7 +40,7 @@ bool LimitCase::is_spared(std::size_t law) const {
 
 std::vector<RigidStrength> LimitCase::strength_at(double factor, StrengthOf which,
                                                   const std::vector<RigidJointForce>& last) const {
-  const LawTable laws = build_laws(sim_.scene->model);
+  const LawTable laws = build_laws(sim_.scene->model, sim_.motion.laws.progress);
   std::vector<double> divided_by = sim_.motion.laws.divided_by;  // by the stage
   for (std::size_t r = 0; r < divided_by.size(); ++r) {
     if (!is_spared(r)) divided_by[r] *= factor;
@@ -231,7 +231,7 @@ std::vector<RigidStrength> LimitCase::strength_of(const Answer& answer) const {
 }
 
 bool LimitCase::is_brittle() const {
-  const LawTable laws = build_laws(sim_.scene->model);
+  const LawTable laws = build_laws(sim_.scene->model, sim_.motion.laws.progress);
   return std::any_of(rigid_.joints.begin(), rigid_.joints.end(), [&](const RigidJoint& joint) {
     const Law& law = laws.rows[joint.law];
     return joint.has_peak && !law.glued &&

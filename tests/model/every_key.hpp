@@ -43,6 +43,14 @@ residual = { friction_angle = 25 }
 dilation_angle = 4
 slip_distance = "5 mm"
 aperture = 0
+[joints.weaker]
+type = "slip-weakening"
+friction_angle = 33
+residual = { friction_angle = 20 }
+dilation_angle = 4
+slip_distance = "5 mm"
+decay_time = "30 d"
+aperture = 0
 [joints.tough]
 friction_angle = 35
 cohesion = "10 MPa"
@@ -361,7 +369,7 @@ excavate = ["cavern"]
 relax = { cavern = 0.6 }
 install = ["round", "shell", "second"]
 fill = ["paste", "bund"]
-change = [{ joints = "rough", to = "weak", region = [[11, 1], [12, 1], [12, 2]], around = "cavern", distance = "2 m" }]
+change = [{ joints = "rough", to = "weak", region = [[11, 1], [12, 1], [12, 2]], around = "cavern", distance = "2 m" }, { joints = "weak", to = "weaker", set = "bedding", over = "2 s" }]
 activate = ["axle", "wet"]
 masses = "as given"
 reset_displacements = true

@@ -345,9 +345,7 @@ TEST(Ramp, StagesGoOnAfterACollapse) {
   EXPECT_GT(r.moved("block").x, 0.5 * slides);
 }
 
-TEST(Ramp, ResumesToTheSameBits) {
-  const std::string model = block_on_floor("[[monitor]]\nname = 'top'\npoint = [0.5, 0.4]\n" +
-                                           stages_with("tilt = [10, 40], steps = 30"));
+void expect_same_bits(const std::string& model) {
   const ScratchFolder whole, broken;
   RunOptions options;
   options.folder = whole.path().string();
@@ -356,7 +354,8 @@ TEST(Ramp, ResumesToTheSameBits) {
   ASSERT_TRUE(outcome.ok());
   const std::uint64_t steps = outcome.value().steps;
   // In an early increment, and in the one that fails.
-  for (const std::uint64_t at : {std::uint64_t{1500}, steps / 2, steps - 100}) {
+  for (const std::uint64_t at :
+       {std::min(std::uint64_t{1500}, steps / 4), steps / 2, steps - 100}) {
     options = {};
     options.folder = broken.path().string();
     std::filesystem::remove_all(broken.path());
@@ -384,6 +383,66 @@ TEST(Ramp, ResumesToTheSameBits) {
       };
       EXPECT_EQ(text(whole), text(broken)) << file << at;
     }
+  }
+}
+
+const std::string top = "[[monitor]]\nname = 'top'\npoint = [0.5, 0.4]\n";
+
+TEST(Ramp, ResumesToTheSameBits) {
+  expect_same_bits(block_on_floor(top + stages_with("tilt = [10, 40], steps = 30")));
+}
+
+/// Laws that change with the ramp, strength and stiffness, and that lose strength with time.
+const std::string
+    worn = "kn = 1e9\nks = 4e8\ndecay_time = '10 d'\nresidual = { friction_angle = 5 }\n",
+    change = "change = [{ joints = 'dry', to = 'worn' }]\n";
+std::string of_laws(const std::string& stages) {
+  std::string model =
+      block_on_floor("[[monitor]]\nname = 'low'\npoint = [0.5, 0.1]\n" + stages, 20.0);
+  model.insert(model.find("[[block]]"),
+               worn + "[joints.worn]\nfriction_angle = 25\n" + worn + "[contact]\njoint = 'dry'\n");
+  model.replace(model.rfind("kn = 1e9"), 8, "kn = 3e8");
+  return model;
+}
+
+TEST(Ramp, OfLawsResumesToTheSameBits) {
+  expect_same_bits(of_laws(stages_with("time = ['0 d', '8 d'], steps = 16")));
+  expect_same_bits(of_laws("[[stage]]\nuntil = 'equilibrium'\n[[stage]]\n" + change +
+                           "ramp = { change = [0, 1], steps = 10 }\n[[stage]]\nduration = 0.05\n"));
+}
+
+/// From the end of a stage, with other changes to come.
+TEST(Ramp, StagesAfterOneMayChangeOtherJoints) {
+  const std::string first =
+                        "[[stage]]\nname = 'rest'\nuntil = 'equilibrium'\n[[stage]]\nname = "
+                        "'age'\n" +
+                        change + "ramp = { change = [0, 0.5], steps = 2 }\n",
+                    none = "[[stage]]\nduration = 0.01\n",
+                    more =
+                        "[[stage]]\nchange = [{ joints = 'worn', to = 'dry' }]\nramp = { change = "
+                        "[0, 1], steps = 2 }\n" +
+                        none;
+  for (const bool adds : {true, false}) {
+    const ScratchFolder folder;
+    RunOptions options;
+    options.folder = folder.path().string();
+    PreparedRun before = prepared(of_laws(first + (adds ? none : more)));
+    ASSERT_TRUE(run_model(before, options).ok());
+    PreparedRun after = prepared(of_laws(first + (adds ? more : none)));
+    options.from_stage = 1;
+    const Result<Outcome> went_on = run_model(after, options);
+    ASSERT_TRUE(went_on.ok()) << to_string(went_on.faults()[0]);
+    const Ran at_once = ran(of_laws(first + (adds ? more : none)));
+    const auto law_of = [](const Simulation& sim) {
+      return sim.motion.laws.rows[sim.motion.contacts.law[0]];
+    };
+    const Law one = law_of(after.sim), other = law_of(at_once.ready.sim);
+    EXPECT_NEAR(one.peak_friction / other.peak_friction, 1.0, 1e-9) << adds;
+    EXPECT_EQ(one.kn, other.kn) << adds;
+    EXPECT_EQ(one.kn, adds ? 1e9 : std::lerp(1e9, 3e8, 0.5));
+    const Vec2 apart = centroid(after.sim.motion.state.position, 1) -
+                       centroid(at_once.ready.sim.motion.state.position, 1);
+    EXPECT_LT(norm(apart), 1e-8) << adds;
   }
 }
 

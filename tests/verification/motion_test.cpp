@@ -255,7 +255,7 @@ TEST(FallingSquares, EnergyLedger) {
 }
 
 /// Row 5: quarter period of rocking from rest, theta'' = -p^2 sin(alpha - theta), p^2 = 3 g/4 R.
-class Rocking : public testing::TestWithParam<std::pair<const char*, double>> {};
+class Rocking : public ::testing::TestWithParam<std::pair<const char*, double>> {};
 
 /// The pendulum released at rest, by RK4.
 struct Pendulum {
@@ -341,8 +341,8 @@ polygon = )" + polygon + "\n[solver]\nduration = 1.25\nmass = '" +
 }
 
 INSTANTIATE_TEST_SUITE_P(Masses, Rocking,
-                         testing::Values(std::pair{"matched", 0.8}, std::pair{"consistent", 0.8},
-                                         std::pair{"covering", 0.8}),
+                         ::testing::Values(std::pair{"matched", 0.8}, std::pair{"consistent", 0.8},
+                                           std::pair{"covering", 0.8}),
                          [](const auto& test) { return std::string(test.param.first); });
 
 }  // namespace

@@ -441,6 +441,13 @@ ROWS = (
         " strength.",
         "Spang and Egger (1990), fitted to tests.",
         "In weaker and in harder rock and at larger angles the bar differs more from the fit (theory, section 14.2)."),
+    Row(101, "Joints that change gradually",
+        "A block on a plane of 30 deg while its joint goes from one law to another, by a ramp and over a second; a block that hangs by"
+        " tensile strength; a column whose joints become softer.",
+        "Strength and load along the plane are equal at a part of the change. Stiffness that changes moves nothing."),
+    Row(102, "Joints that lose strength with time",
+        "The same blocks on joints whose strength decays exponentially to the residual one, in a ramp of time and in the time of a stage.",
+        "The time at which the strength is the load; after it the block slides with the residual friction."),
     Row(103, "A borehole opens a joint",
         "Water is injected for 4 s into a joint of meshed elastic rock under 5 MPa, of which the joint takes no tension: a quarter"
         " of the fracture.",

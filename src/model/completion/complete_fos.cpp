@@ -45,7 +45,9 @@ std::optional<VariedRow> find_varied(const std::string& vary, Place place, const
                                                              {"kh", Varied::kh},
                                                              {"kv", Varied::kv},
                                                              {"gravity", Varied::gravity},
-                                                             {"flow", Varied::flow}};
+                                                             {"flow", Varied::flow},
+                                                             {"change", Varied::change},
+                                                             {"time", Varied::time}};
   for (const auto& [word, varied] : by_name) {
     if (vary == word) return VariedRow{varied, none};
     const bool has_way = changes_gravity(varied) && varied != Varied::gravity;
@@ -95,9 +97,10 @@ void complete_fos(const Value& root, Reading& reading) {
                 "trials hold the water in joints after a stage in which it takes its time, so that "
                 "no factor on a water has an effect there",
                 "vary the strength, or give the stages no ramp of flow");
-    if (found->varied == Varied::flow)
+    if (found->varied == Varied::flow || found->varied == Varied::time ||
+        found->varied == Varied::change)
       add_fault(reading, place_of(node, "vary"), "fos.vary",
-                "\"flow\" is the time in which water flows, which has no factor",
+                '"' + fos.vary + "\" has no factor: it belongs to the ramp of a stage",
                 "vary the strength at the end of a stage with such a ramp: fos.stage");
   }
   if (!fos.stage.empty()) {

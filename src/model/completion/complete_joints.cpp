@@ -19,6 +19,7 @@ void check_law_keys(const Value* node, const JointLaw& law, Reading& reading) {
   const LawKey keys[] = {{"friction_angle", {C, S, B, LawType::glued}, {C, S}},
                          {"dilation_angle", {C, S}, {}},
                          {"slip_distance", {C, S}, {S}},
+                         {"decay_time", {C, S}, {}},
                          {"fracture_energy", {C}, {}},
                          {"shear_fracture_energy", {C}, {}},
                          {"jrc", {B}, {B}},
@@ -85,6 +86,25 @@ void check_fracture(const Value* node, const JointLaw& law, Reading& reading) {
   }
 }
 
+/// Strength that falls with time needs one to which it falls.
+void check_decay(const Value* node, const JointLaw& law, Reading& reading) {
+  if (!law.decay_time) return;
+  const auto refuse = [&](std::string problem, std::string remedy) {
+    add_fault(reading, place_of(node, "decay_time"), law.where.key + ".decay_time",
+              std::move(problem), std::move(remedy));
+  };
+  const Strength &peak = law.peak, &after = law.residual;
+  if (law.fracture_energy) {
+    refuse("does not go with a fracture_energy", "leave out one of them");
+  } else if (reading.model.solver.method == Method::dda) {
+    refuse("is not available with method = \"dda\"", "use method = \"edda\", or leave it out");
+  } else if (peak.friction_angle <= after.friction_angle && peak.cohesion <= after.cohesion &&
+             peak.tensile_strength <= after.tensile_strength) {
+    refuse("leaves the strength as it is, which is the residual one",
+           "give residual = { friction_angle = ... }, or cohesion");
+  }
+}
+
 /// Barton-Bandis joints have only the strength that follows from jrc, jcs and residual_angle; a
 /// written model states this.
 void check_no_strength(const Value* node, const JointLaw& law, Reading& reading) {
@@ -133,6 +153,7 @@ void complete_strength(const Value* node, JointLaw& law, Reading& reading) {
   if (known) {
     check_law_keys(node, law, reading);
     check_fracture(node, law, reading);
+    check_decay(node, law, reading);
   }
   const bool more = law.type == LawType::slip_weakening || law.type == LawType::barton_bandis ||
                     law.dilation_angle;

@@ -177,6 +177,71 @@ void check_materials(const Material& from, const Material& to, const Value* own,
   }
 }
 
+/// Whether two laws differ in no more than strength and stiffness.
+bool change_gradually(const JointLaw& a, const JointLaw& b) {
+  const bool has_strength = a.type == LawType::coulomb || a.type == LawType::slip_weakening;
+  return has_strength && a.type == b.type && a.dilation_angle == b.dilation_angle &&
+         a.slip_distance == b.slip_distance && a.kn.has_value() == b.kn.has_value() &&
+         a.ks.has_value() == b.ks.has_value() && a.aperture == b.aperture &&
+         a.residual_aperture == b.residual_aperture && a.largest_aperture == b.largest_aperture &&
+         !a.restitution && !b.restitution;
+}
+
+bool is_ramped(const Stage& stage) {
+  return stage.ramp && stage.ramp->varied == Varied::change;
+}
+
+/// A change that is not made at once.
+void check_gradual(const Value* own, const Stage& stage, const PropertyChange& change,
+                   Reading& reading) {
+  const Model& model = reading.model;
+  const bool over = change.over > 0.0;
+  if (!over && !is_ramped(stage)) return;
+  const std::string key = change.where.key + (over ? ".over" : "");
+  const auto refuse = [&](std::string problem, std::string remedy) {
+    add_fault(reading, over ? place_of(own, "over") : own->place, key, std::move(problem),
+              std::move(remedy));
+  };
+  if (over && stage.to_equilibrium())
+    return refuse("belongs to a stage with a duration, and this one has none of its own",
+                  "give ramp = { change = [0, 1] }, or until = \"time\"");
+  if (over && change.over > stage.duration)
+    return refuse(fmt::format("is longer than the {:.6g} s of the stage", stage.duration),
+                  "give the stage a longer duration");
+  if (change.material != none)
+    return refuse("a material changes at once",
+                  over ? "leave out over" : "make this change in a stage of its own");
+  if (change.joints == none || change.row == none) return;
+  const JointLaw &a = model.joints[static_cast<std::size_t>(change.joints)],
+                 &b = model.joints[static_cast<std::size_t>(change.row)];
+  if (!change_gradually(a, b))
+    return refuse(fmt::format("\"{}\" and \"{}\" differ in more than the numbers of strength, kn "
+                              "and ks, or have a restitution, and change at once alone",
+                              a.name, b.name),
+                  over ? "leave out over" : "make this change in a stage of its own");
+  for (const ContactPair& pair : model.pairs) {
+    if (pair.joints[0] != change.joints && pair.joints[1] != change.joints &&
+        pair.joints[0] != change.row && pair.joints[1] != change.row)
+      continue;
+    return refuse("a [[contact_pair]] names these joints, which change at once alone",
+                  over ? "leave out over" : "make this change in a stage of its own");
+  }
+}
+
+void check_set(const Value* own, const PropertyChange& change, Reading& reading) {
+  if (change.set.empty()) return;
+  if (!given(own, "joints")) {
+    add_fault(reading, place_of(own, "set"), change.where.key + ".set",
+              "is given with a material: it chooses among joints", "leave it out, or give joints");
+    return;
+  }
+  std::vector<std::string_view> known = names_in(reading.model.joint_sets);
+  for (const std::string_view name : names_in(reading.model.networks)) known.push_back(name);
+  if (std::find(known.begin(), known.end(), change.set) != known.end()) return;
+  names_nothing(reading, *find(own, "set"), change.where.key + ".set", change.set,
+                "joint set or fracture network", known);
+}
+
 void check_laws(const JointLaw& from, const JointLaw& to, const Value* own, const Where& where,
                 Reading& reading) {
   const JointLaw& one = from.fracture_energy ? from : to;
@@ -241,7 +306,10 @@ void complete_changes(const Value* own, Stage& stage, Reading& reading) {
   }
   for (std::size_t i = 0; i < stage.change.size(); ++i) {
     const Value* table = child(find(own, "change"), i);
-    if (is_table(table)) complete_change(table, stage.change[i], reading);
+    if (!is_table(table)) continue;
+    complete_change(table, stage.change[i], reading);
+    check_set(table, stage.change[i], reading);
+    check_gradual(table, stage, stage.change[i], reading);
   }
 }
 
@@ -400,13 +468,20 @@ void find_ramp(const Value* node, const std::string& key, Ramp& ramp, Reading& r
   if (ramp.varied == Varied::strength && least <= 0.0) refuse("has a value that is not above 0");
   const bool pressure = ramp.varied == Varied::gravity || ramp.varied == Varied::water;
   if (pressure && least < 0.0) refuse("has a value below 0");
-  if (ramp.varied == Varied::flow) {
-    if (from < 0.0 || to < from)
-      add_fault(reading, place, key + '.' + vary, "does not go from a time to a later one",
-                "give two such as [\"0 h\", \"48 h\"]");
-    if (!reading.model.flow)
-      add_fault(reading, place, key + '.' + vary, "there is no flow of water", "add [flow]");
-  }
+  const auto fault = [&](const char* problem, const char* remedy) {
+    add_fault(reading, place, key + '.' + vary, problem, remedy);
+  };
+  const bool is_time = ramp.varied == Varied::flow || ramp.varied == Varied::time;
+  if (is_time && (from < 0.0 || to < from))
+    fault("does not go from a time to a later one", "give two such as [\"0 h\", \"48 h\"]");
+  if (ramp.varied == Varied::flow && !reading.model.flow)
+    fault("there is no flow of water", "add [flow]");
+  const auto& joints = reading.model.joints;
+  const auto decays = [](const JointLaw& law) { return law.decay_time.has_value(); };
+  if (ramp.varied == Varied::time && std::none_of(joints.begin(), joints.end(), decays))
+    fault("no joint loses strength with time", "give a law of joints a decay_time");
+  if (ramp.varied == Varied::change && (from < 0.0 || to < from || to > 1.0))
+    fault("does not go from a part of the change to a larger one", "give [0, 1]");
   if (changes_gravity(ramp.varied) && reading.model.gravity == Vec2{})
     add_fault(reading, place, key + '.' + vary, "the model has no gravity that this could act on",
               "give gravity = [0, -9.81]");
@@ -442,6 +517,9 @@ void complete_ramp(const Value* own, Stage& stage, Reading& reading) {
   const Value* node = find(own, "ramp");
   if (!is_table(node)) return;
   find_ramp(node, stage.where.key + ".ramp", *stage.ramp, reading);
+  if (is_ramped(stage) && stage.change.empty())
+    refuse("ramp", "varies the part of a change that the stage does not make",
+           "give change = [{ joints = \"A\", to = \"B\" }], too");
   if (stage.ramp->varied == Varied::strength && given(own, "strength_factor"))
     refuse("strength_factor", "is given beside a ramp of the strength", "leave one of them out");
 }
@@ -503,6 +581,42 @@ void check_otherwise(const Value* own, const Stage& stage, Reading& reading) {
             "leave it out, or give until = \"equilibrium\"");
 }
 
+/// Finds which laws each change of joints changes, and adds those that follow from it (LawChange):
+/// one for each law that joints have by then and that counts as the one that changes.
+void complete_law_changes(const Value& root, Reading& reading) {
+  Model& model = reading.model;
+  constexpr std::size_t most = 65000;  // a contact keeps its law in 16 bits
+  std::vector<std::vector<Index>> counts_as(model.joints.size());
+  for (std::size_t r = 0; r < model.joints.size(); ++r)
+    counts_as[r].push_back(static_cast<Index>(r));
+  for (std::size_t q = 0; q < model.stages.size(); ++q) {
+    for (PropertyChange& change : model.stages[q].change) {
+      if (change.joints == none || change.row == none || change.row == change.joints) continue;
+      const JointLaw to = model.joints[static_cast<std::size_t>(change.row)];
+      const bool gradual = change.over > 0.0 || is_ramped(model.stages[q]);
+      auto& from = counts_as[static_cast<std::size_t>(change.joints)];
+      auto& list = counts_as[static_cast<std::size_t>(change.row)];
+      for (const Index law : from) {
+        Index becomes = change.row;
+        if (gradual || to.decay_time) {
+          becomes = static_cast<Index>(model.joints.size());
+          model.joints.push_back(to);
+          model.joints.back().where = {};
+          model.joints.back().change = {gradual ? law : none, change.row, q, change.over};
+        }
+        change.laws.emplace_back(law, becomes);
+        if (std::find(list.begin(), list.end(), becomes) == list.end()) list.push_back(becomes);
+      }
+      if (change.region.empty() && change.around.empty() && change.set.empty()) from.clear();
+      if (model.joints.size() <= most) continue;
+      add_fault(reading, element(root, "stage", q)->place, change.where.key,
+                "changes joints that have changed in too many ways before",
+                "make fewer changes that go there and back");
+      return;
+    }
+  }
+}
+
 }  // namespace
 
 void complete_stages(const Value& root, Reading& reading) {
@@ -556,6 +670,7 @@ void complete_stages(const Value& root, Reading& reading) {
                           reading);
     }
   }
+  complete_law_changes(root, reading);
   constexpr double same = 1e-9;
   if (duration != nullptr && all_given && std::abs(solver.duration - sum) > same * sum) {
     add_fault(reading, duration->place, "solver.duration",

@@ -105,6 +105,7 @@ constexpr std::array joint_keys{
     Key{"slip_distance", at<&JointLaw::slip_distance>, number(D::length, above(0)), otherwise("required of slip-weakening; of Coulomb friction: unlimited"), "Slip from peak to residual strength, at which dilation also ends."},
     Key{"fracture_energy", at<&JointLaw::fracture_energy>, number(D::surface_energy, above(0)), otherwise("none: bonds fail at once"), "Energy that a crack takes in tension, for each area: tensile_strength falls linearly as the joint opens, to 0 at 2 fracture_energy / tensile_strength. Of Coulomb friction, with shear_fracture_energy."},
     Key{"shear_fracture_energy", at<&JointLaw::shear_fracture_energy>, number(D::surface_energy, above(0)), otherwise("required with fracture_energy"), "Energy that a crack takes in shear beside friction, for each area: cohesion falls linearly with slip, to 0 at 2 shear_fracture_energy / cohesion."},
+    Key{"decay_time", at<&JointLaw::decay_time>, number(D::time, above(0)), otherwise("none: it does not fall with time"), "Time in which the peak strength falls to 1/e of what it is above the residual one, exponentially, in stages with a duration and in ramps of time."},
     Key{"jrc", at<&JointLaw::jrc>, number(D::plain, from_to(0, 20)), otherwise("required of barton-bandis"), "Joint roughness coefficient, for walls as long as the blocks' edges."},
     Key{"jcs", at<&JointLaw::jcs>, number(D::stress, above(0)), otherwise("required of barton-bandis"), "Compressive strength of the joint's walls."},
     Key{"residual_angle", at<&JointLaw::residual_angle>, number(D::angle, friction), otherwise("required of barton-bandis"), "Residual friction angle of barton-bandis."},
@@ -321,6 +322,8 @@ constexpr std::array ramp_keys{
     Key{"load:NAME", at<&Ramp::what>, varied(D::plain), otherwise("none"), "Multiplier of the load of that name (a quoted key); until its first ramp it has the multiplier with which that begins."},
     Key{"water:NAME", at<&Ramp::what>, varied(D::plain), otherwise("none"), "Multiplier of the pressure of that water."},
     Key{"flow", at<&Ramp::what>, varied(D::time), otherwise("none"), "With [flow]: time in which the water flows, such as [\"0 h\", \"48 h\"], in increments; it has its own clock. Joints store water meanwhile, and what the stage changes at its start meets water that has had no time to flow."},
+    Key{"change", at<&Ramp::what>, varied(D::plain), otherwise("none"), "Part of the change of joints of this stage that has happened, such as [0, 1]: strength and stiffness lie between those of the old and the new law."},
+    Key{"time", at<&Ramp::what>, varied(D::time), otherwise("none"), "Time in which joints with a decay_time lose strength, such as [\"0 d\", \"100 d\"]; it goes on from stage to stage."},
     Key{"boundary:NAME", at<&Ramp::what>, varied(D::plain), otherwise("none"), "Multiplier of the displacement, or of the traction, of that boundary."},
     Key{"hold", at<&Ramp::hold>, choice, initial, "What each value is held for."},
     Key{"steps", at<&Ramp::steps>, whole(1, 100000), initial, "Number of increments, and so the accuracy of a collapse load."},
@@ -330,9 +333,11 @@ constexpr std::array change_keys{
     Key{"joints", at<&PropertyChange::joints>, joint, otherwise("none; this or material"), "Law of the joints that change."},
     Key{"material", at<&PropertyChange::material>, material, otherwise("none; this or joints"), "Material of what changes: of rock the strength in zones; of linings that are there elasticity and strength, as concrete hardens."},
     Key{"to", at<&PropertyChange::to>, naming, required, "The law, or the material, that they have from then on. Forces and stresses go on from what they are."},
+    Key{"set", at<&PropertyChange::set>, naming, otherwise("all"), "Only joints that the joint set, or the fracture network, of this name has cut."},
     Key{"region", at<&PropertyChange::region>, polygon, otherwise("the whole model"), "Only edges whose middle, or blocks and linings whose centroid, lies in this polygon, as drawn."},
     Key{"around", at<&PropertyChange::around>, naming, otherwise("none"), "Only those within `distance` of the outline of this opening, as drawn."},
     Key{"distance", at<&PropertyChange::distance>, number(D::length, above(0)), or_none("required with around"), "How far from that opening."},
+    Key{"over", at<&PropertyChange::over>, number(D::time, above(0)), or_none("at once"), "In a stage with a duration: time from its start in which strength and stiffness of the joints go from the old law to the new one."},
 };
 
 constexpr std::array stage_keys{

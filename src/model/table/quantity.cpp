@@ -36,6 +36,8 @@ constexpr std::array symbols{
     Symbol{"s", true, {1.0, 0, 0, 0, 1, 0}},
     Symbol{"min", false, {60.0, 0, 0, 0, 1, 0}},
     Symbol{"h", false, {3600.0, 0, 0, 0, 1, 0}},
+    Symbol{"d", false, {86400.0, 0, 0, 0, 1, 0}},
+    Symbol{"a", false, {365.25 * 86400.0, 0, 0, 0, 1, 0}},
     Symbol{"N", true, {1.0, 0, 1, 1, -2, 0}},
     Symbol{"Pa", true, {1.0, 0, -1, 1, -2, 0}},
     Symbol{"bar", true, {1.0, 5, -1, 1, -2, 0}},
