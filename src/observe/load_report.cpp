@@ -79,6 +79,20 @@ std::string flow_line(const Simulation& sim) {
   return text;
 }
 
+std::string injection_line(const Simulation& sim, std::size_t q) {
+  const Water& water = sim.scene->model.waters[q];
+  const BlockSet& b = sim.scene->blocks;
+  std::string where = "where no joint conducts water";
+  for (const FlowGround::Injection& into : sim.attached.joint_water.ground.injections) {
+    if (static_cast<std::size_t>(into.water) != q) continue;
+    const Vec2 at = b.vertex(into.corner) + b.origin;
+    where = fmt::format("at ({:.4g}, {:.4g})", at.x, at.y);
+  }
+  return fmt::format("{}: injects {:.4g} m2/s into the joints {}{}",
+                     row_label("water", water.name, q), *water.injection, where,
+                     range_of(water.rise, "times", ""));
+}
+
 std::string bolts_line(const Bolts& bolts) {
   std::size_t joints = 0;
   for (std::size_t k = 0; k < bolts.size(); ++k) joints += bolts.crossing[k];
@@ -127,15 +141,7 @@ std::vector<std::string> load_report(const Simulation& sim) {
       continue;
     }
     if (water.injection) {
-      std::string where = "where no joint conducts water";
-      for (const FlowGround::Injection& into : sim.attached.joint_water.ground.injections) {
-        if (static_cast<std::size_t>(into.water) != q) continue;
-        const Vec2 at = b.vertex(into.corner) + b.origin;
-        where = fmt::format("at ({:.4g}, {:.4g})", at.x, at.y);
-      }
-      lines.push_back(fmt::format("{}: injects {:.4g} m2/s into the joints {}{}",
-                                  row_label("water", water.name, q), *water.injection, where,
-                                  range_of(water.rise, "times", "")));
+      lines.push_back(injection_line(sim, q));
       continue;
     }
     if (water.level) {

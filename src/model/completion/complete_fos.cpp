@@ -4,22 +4,13 @@
 #include <string_view>
 #include <utility>
 
+#include "model/completion/complete_changes.hpp"
 #include "model/completion/complete_tools.hpp"
 #include "model/stage_names.hpp"
 #include "model/table/nearest.hpp"
 
 namespace edda {
 namespace {
-
-/// The names of the elements of a list that have one.
-template <class Item>
-std::vector<std::string_view> names_in(const std::vector<Item>& items) {
-  std::vector<std::string_view> names;
-  for (const Item& item : items) {
-    if (!item.name.empty()) names.push_back(item.name);
-  }
-  return names;
-}
 
 /// The row of that name; a fault where there is none.
 template <class Item>
