@@ -43,14 +43,6 @@ residual = { friction_angle = 25 }
 dilation_angle = 4
 slip_distance = "5 mm"
 aperture = 0
-[joints.weaker]
-type = "slip-weakening"
-friction_angle = 33
-residual = { friction_angle = 20 }
-dilation_angle = 4
-slip_distance = "5 mm"
-decay_time = "30 d"
-aperture = 0
 [joints.tough]
 friction_angle = 35
 cohesion = "10 MPa"
@@ -63,6 +55,14 @@ type = "barton-bandis"
 jrc = 9
 jcs = "80 MPa"
 residual_angle = 28
+aperture = 0
+[joints.weaker]
+type = "slip-weakening"
+friction_angle = 33
+residual = { friction_angle = 20 }
+dilation_angle = 4
+slip_distance = "5 mm"
+decay_time = "30 d"
 aperture = 0
 [contact]
 model = "faces"

@@ -49,7 +49,10 @@ void expect_every_key(const Model& m) {
   EXPECT_EQ(m.initial_stress->k0_out, 0.75);
   EXPECT_FALSE(m.initial_stress->k0);
   expect_every_gauge_key(m);
-  ASSERT_EQ(m.joints.size(), 5U);
+  // The last is one that changes over a time.
+  ASSERT_EQ(m.joints.size(), 7U);
+  EXPECT_EQ(m.joints[5].decay_time, 30.0 * 86400.0);
+  EXPECT_TRUE(m.joints[6].change);
   EXPECT_EQ(m.joints[0].type, LawType::glued);
   const JointLaw& law = m.joints[1];
   EXPECT_EQ(law.name, "rough");
@@ -394,7 +397,9 @@ void expect_every_stage_key(const Model& m) {
   EXPECT_EQ(m.stages[0].strength_factor, 1.0);
   EXPECT_EQ(m.stages[1].strength_factor, 1.25);
   EXPECT_EQ(m.stages[1].excavate, std::vector<std::string>{"cavern"});
-  ASSERT_EQ(m.stages[1].change.size(), 1U);
+  ASSERT_EQ(m.stages[1].change.size(), 2U);
+  EXPECT_EQ(m.stages[1].change[1].set, "bedding");
+  EXPECT_EQ(m.stages[1].change[1].over, 2.0);
   const PropertyChange& joints = m.stages[1].change[0];
   EXPECT_EQ(m.joints[static_cast<std::size_t>(joints.joints)].name, "rough");
   EXPECT_EQ(m.joints[static_cast<std::size_t>(joints.row)].name, "weak");

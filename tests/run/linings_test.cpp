@@ -45,6 +45,7 @@ void change_joints(Simulation& sim, Index from, Index to) {
   PropertyChange change;
   change.joints = from;
   change.row = to;
+  change.laws = {{from, to}};
   change_properties(sim, change);
 }
 
