@@ -493,9 +493,12 @@ FlowNetwork flow_network(const FlowScene& scene, const FlowGround& ground) {
 
 void note_injections(const FlowScene& scene, FlowGround& ground) {
   const BlockSet& b = scene.blocks;
+  const std::vector<Water>& waters = scene.model.waters;
+  if (std::none_of(waters.begin(), waters.end(), [](const Water& w) { return w.injection; }))
+    return;
   const FlowNetwork net = flow_network(scene, ground);
-  for (std::size_t q = 0; q < scene.model.waters.size(); ++q) {
-    const Water& water = scene.model.waters[q];
+  for (std::size_t q = 0; q < waters.size(); ++q) {
+    const Water& water = waters[q];
     if (!water.injection) continue;
     Id nearest = no_id;
     const auto far = [&](Id v) { return norm(b.vertex(v) + b.origin - *water.at); };
