@@ -37,18 +37,20 @@ SectionStrength strength_of(const Model& model, const Lining& lining, const Mate
                             bool residual) {
   const bool own = lining.compressive_strength.has_value();
   if ((!own && !material.strength) || (residual && !lining.residual)) return {};
-  const double compressive = own ? *lining.compressive_strength : material.strength->ucs,
-               tensile = own ? lining.tensile_strength.value_or(lining.area ? compressive : 0.0)
-                             : material.strength->tension;
-  const LiningResidual after = residual ? *lining.residual : LiningResidual{};
+  double compressive = own ? *lining.compressive_strength : material.strength->ucs,
+         tensile = own ? lining.tensile_strength.value_or(lining.area ? compressive : 0.0)
+                       : material.strength->tension;
   const double t = lining.drawn_thickness(), area = model.thickness * t * lining.solidity(),
                both = compressive + tensile;
   // The rectangle with that plastic moment under the thrust at which it is largest.
   const double thick = lining.plastic_moment ? 8.0 * *lining.plastic_moment * model.thickness /
                                                    lining.spacing / (both * area)
                                              : t;
-  return rectangle_strength(after.compressive_strength.value_or(compressive),
-                            after.tensile_strength.value_or(tensile), area, thick);
+  if (residual) {
+    compressive = lining.residual->compressive_strength.value_or(compressive);
+    tensile = lining.residual->tensile_strength.value_or(tensile);
+  }
+  return rectangle_strength(compressive, tensile, area, thick);
 }
 
 std::vector<std::pair<std::uint32_t, std::uint32_t>> neighbours(const Mesh& mesh) {
