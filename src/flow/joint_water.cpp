@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <span>
 
 namespace edda {
@@ -43,8 +44,8 @@ class Flow {
     std::vector<WaterContent> found;
     for (const FlowPipe& pipe : net_.pipes) {
       found.push_back({s_.faces.edge[pipe.face], s_.faces.facing[pipe.face], pipe.part_from,
-                       pipe.part_to, pipe.volume.a * part_of(pipe.from),
-                       pipe.volume.b * part_of(pipe.to)});
+                       pipe.part_to, content_at(pipe, 0), content_at(pipe, 1),
+                       pipe.aperture[0].value(), pipe.aperture[1].value()});
     }
     std::stable_sort(found.begin(), found.end(),
                      [](const auto& c, const auto& d) { return key_of(c) < key_of(d); });
@@ -56,12 +57,9 @@ class Flow {
     Storage storage;
     storage.passed = step.passed;
     storage.bulk_modulus = s_.model.flow->bulk_modulus;
-    storage.gives = gives_of(forces, s_, step.masses, step.seconds_squared);
-    for (std::size_t n = 0; n < water_.size(); ++n) {
-      storage.volume.push_back(net_.nodes[n].volume);
-      storage.acting.push_back(water_[n].pressure);
-    }
-    storage.content = contents_of_nodes();
+    storage.gives = gives_of(forces, end_openings(net_, s_), s_, step.masses, step.seconds_squared);
+    for (const NodeWater& w : water_) storage.acting.push_back(w.pressure);
+    take_beginning(storage);
     solve(&storage);
     std::vector<CornerForce> more;
     for (const NodeForce& f : forces) {
@@ -151,10 +149,13 @@ class Flow {
   double part_of(Id n) const {
     return water_[n].filled + water_[n].pressure / s_.model.flow->bulk_modulus;
   }
-  /// What the nodes contained when the time began. A joint that was none then has what it has.
-  std::vector<double> contents_of_nodes() const {
-    std::vector<double> content(net_.nodes.size(), 0.0);
+  /// What the nodes contained when the time began, and the apertures. A joint that was none then
+  /// has what it has.
+  void take_beginning(Storage& storage) const {
+    std::vector<double>& content = storage.content;
+    content.assign(net_.nodes.size(), 0.0);
     for (const FlowPipe& pipe : net_.pipes) {
+      double from = pipe.aperture[0].value(), to = pipe.aperture[1].value();
       const std::pair key(s_.faces.edge[pipe.face], s_.faces.facing[pipe.face]);
       const auto before = [](const WaterContent& c, const auto& k) { return key_of(c) < k; };
       auto at = std::lower_bound(joints_.contents.begin(), joints_.contents.end(), key, before);
@@ -163,12 +164,24 @@ class Flow {
         const double middle = 0.5 * (pipe.part_from + pipe.part_to);
         content[pipe.from] += share_of(*at, pipe.part_from, middle);
         content[pipe.to] += share_of(*at, middle, pipe.part_to);
+        from = aperture_at(*at, pipe.part_from).value_or(from);
+        to = aperture_at(*at, pipe.part_to).value_or(to);
       }
+      storage.before.insert(storage.before.end(), {from, to});
       if (known) continue;
-      content[pipe.from] += pipe.volume.a * part_of(pipe.from);
-      content[pipe.to] += pipe.volume.b * part_of(pipe.to);
+      content[pipe.from] += content_at(pipe, 0);
+      content[pipe.to] += content_at(pipe, 1);
     }
-    return content;
+  }
+  static std::optional<double> aperture_at(const WaterContent& c, double part) {
+    if (part < c.part_from || part > c.part_to) return {};
+    const double t = (part - c.part_from) / (c.part_to - c.part_from);
+    return (1.0 - t) * c.aperture_from + t * c.aperture_to;
+  }
+  /// Of the node at this end, what it has in the pipe.
+  double content_at(const FlowPipe& pipe, std::size_t end) const {
+    return volume_at(pipe, pipe.aperture[end].value(), pipe.aperture[1 - end].value()) *
+           part_of(end == 0 ? pipe.from : pipe.to);
   }
   /// Of what a pipe contained, the share of its first node in its first half and that of the other
   /// one in the second, what is in the half from `from` to `to` of a pipe of the same face.

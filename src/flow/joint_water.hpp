@@ -20,9 +20,10 @@ struct FlowRow {
 
 /// Water in a pipe of a face when a time began to pass.
 struct WaterContent {
-  Id edge, facing;            ///< of the face
-  double part_from, part_to;  ///< of the pipe, as FlowPipe
-  double from, to;            ///< V (s + p/K) of its two nodes, m2
+  Id edge, facing;                    ///< of the face
+  double part_from, part_to;          ///< of the pipe, as FlowPipe
+  double from, to;                    ///< V (s + p/K) of its two nodes, m2
+  double aperture_from, aperture_to;  ///< at them, m
 };
 
 struct JointWater {

@@ -87,12 +87,11 @@ std::optional<Overlap> overlap_of_face(const FlowScene& s, std::size_t k) {
   return f;
 }
 
-/// The hydraulic aperture of a joint that has opened by so much, m; 0: watertight.
-double aperture_of(const JointLaw& law, double opening) {
-  const double drawn = law.aperture.value_or(0.0);
-  if (drawn == 0.0) return 0.0;
-  return std::clamp(drawn + opening, law.residual_aperture.value_or(0.1 * drawn),
-                    law.largest_aperture.value_or(10.0 * drawn));
+/// The hydraulic aperture of a joint that has opened by so much; its law has one.
+Aperture aperture_of(const JointLaw& law, double opening) {
+  const double drawn = *law.aperture;
+  return {drawn + opening, law.residual_aperture.value_or(0.1 * drawn),
+          law.largest_aperture.value_or(10.0 * drawn)};
 }
 
 /// Fractions from end a to end b at which lines of heads cross the face as drawn, with their water.
@@ -142,8 +141,6 @@ class Builder {
     for (const FlowPipe& pipe : net_.pipes) {
       net_.nodes[pipe.from].conductance += pipe.conductance;
       net_.nodes[pipe.to].conductance += pipe.conductance;
-      net_.nodes[pipe.from].volume += pipe.volume.a;
-      net_.nodes[pipe.to].volume += pipe.volume.b;
     }
     add_open_parts();
     return std::move(net_);
@@ -295,32 +292,27 @@ class Builder {
   void add_pipes(const Overlap& f) {
     const std::size_t law = s_.faces.law[f.face];
     if (f.is_point || law >= s_.model.joints.size()) return;
-    const FaceEnds aperture{aperture_of(s_.model.joints[law], f.opening.a),
-                            aperture_of(s_.model.joints[law], f.opening.b)};
-    if (aperture.a == 0.0) return;
     const JointLaw& joint = s_.model.joints[law];
-    const auto follows = [&](double h, double opening) {
-      return h == *joint.aperture + opening ? 1.0 : 0.0;
-    };
-    const FaceEnds free{follows(aperture.a, f.opening.a), follows(aperture.b, f.opening.b)};
+    if (joint.aperture.value_or(0.0) == 0.0) return;
     const Id from = net_.node_of[f.corner_a[0]], to = net_.node_of[f.corner_b[0]];
     double last = 0.0;
     Id last_node = from;
     const auto add = [&](double until, Id node) {
-      const auto there = [&](double t) { return (1.0 - t) * aperture.a + t * aperture.b; };
+      const auto there = [&](double t) {
+        return aperture_of(joint, (1.0 - t) * f.opening.a + t * f.opening.b);
+      };
       const double length = (until - last) * f.length;
-      const FlowPipe pipe{
-          f.face,
-          last_node,
-          node,
-          last,
-          until,
-          length,
-          conductance_of(there(last), there(until), length, s_.model.flow->viscosity),
-          parts_of_end(there(last), there(until)),
-          {length * (2.0 * there(last) + there(until)) / 6.0,
-           length * (there(last) + 2.0 * there(until)) / 6.0},
-          {(1.0 - last) * free.a + last * free.b, (1.0 - until) * free.a + until * free.b}};
+      const Aperture at_last = there(last), at_node = there(until);
+      const double h = at_last.value(), next = at_node.value();
+      const FlowPipe pipe{f.face,
+                          last_node,
+                          node,
+                          last,
+                          until,
+                          length,
+                          conductance_of(h, next, length, s_.model.flow->viscosity),
+                          parts_of_end(h, next),
+                          {at_last, at_node}};
       cover(f, pipe);
       net_.pipes.push_back(pipe);
       last = until;

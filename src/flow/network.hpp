@@ -2,6 +2,7 @@
 // a pipe between two nodes, which are the crossings and the outcrops of joints.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -38,7 +39,13 @@ FlowGround flow_ground(const Model& model, const BlockSet& blocks, std::vector<W
 struct FlowNode {
   Vec2 place;                ///< m, local coordinates
   double conductance = 0.0;  ///< of its pipes together
-  double volume = 0.0;       ///< of its part of them, m2
+};
+
+/// The aperture of a joint at a point: what its walls leave open, but within the residual and the
+/// largest one; m.
+struct Aperture {
+  double walls = 0.0, least = 0.0, largest = 0.0;
+  double value() const { return std::clamp(walls, least, largest); }
 };
 
 /// A face with an aperture, or a part of one.
@@ -48,12 +55,23 @@ struct FlowPipe {
   double part_from, part_to;  ///< of the overlap of the face, 0 at end a, 1 at end b
   double length;              ///< m
   double conductance;         ///< m2/s per Pa
-  FaceEnds of_to;    ///< of the pressure at `to`, on the side of end a and on that of end b
-                     ///< (parts_of_end()); of that at `from` it is the rest of a half
-  FaceEnds volume;   ///< m2: the parts of its two nodes, by weights linear along it
-  FaceEnds follows;  ///< 1: the aperture at this end opens with the walls; 0: it is at the
-                     ///< residual or the largest one
+  FaceEnds of_to;        ///< of the pressure at `to`, on the side of end a and on that of end b
+                         ///< (parts_of_end()); of that at `from` it is the rest of a half
+  Aperture aperture[2];  ///< at `from` and at `to`
 };
+/// What a node has of the volume of a pipe, by weights linear along it, m2: from the apertures at
+/// the node and at its other end.
+inline double volume_at(const FlowPipe& pipe, double near, double far) {
+  return pipe.length * (2.0 * near + far) / 6.0;
+}
+/// What walls that part so far press out of a pipe (draw in, where they open) goes to the node at
+/// which it does work, `to` by f of parts_of_end(): as flow that is not uniform along it does
+/// (Reynolds' equation). By how much that is more than what the volumes of the nodes give, m2; by
+/// so much less it is for the other node.
+inline double drawn_to(const FlowPipe& pipe, FaceEnds opening) {
+  return pipe.length *
+         ((pipe.of_to.a - 1.0 / 6.0) * opening.a + (pipe.of_to.b - 1.0 / 3.0) * opening.b);
+}
 
 /// A part of an edge that a joint with water covers, from the node `from_node` to the other one of
 /// the pipe.

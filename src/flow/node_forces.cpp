@@ -1,6 +1,7 @@
 #include "flow/node_forces.hpp"
 
 #include <algorithm>
+#include <span>
 #include <tuple>
 
 #include "attachments/loads.hpp"
@@ -25,6 +26,27 @@ void merge(std::vector<Row>& rows, const Key& key, const Add& add) {
   rows.resize(count);
 }
 
+/// Calls f(first, last) for each run of rows of the same key.
+template <class Row, class Key, class F>
+void for_runs(std::span<const Row> rows, const Key& key, const F& f) {
+  for (std::size_t k = 0, end = 0; k < rows.size(); k = end) {
+    while (end < rows.size() && key(rows[end]) == key(rows[k])) ++end;
+    f(rows.subspan(k, end - k));
+  }
+}
+
+/// Those of a block among rows that are sorted by block.
+template <class Row>
+std::span<const Row> of_block(const std::vector<Row>& rows, Id block) {
+  const auto first =
+      std::partition_point(rows.begin(), rows.end(), [&](const Row& r) { return r.block < block; });
+  const auto last =
+      std::partition_point(first, rows.end(), [&](const Row& r) { return r.block == block; });
+  return {first, last};
+}
+
+constexpr auto corner_of = [](const auto& row) { return row.corner; };
+
 }  // namespace
 
 std::vector<NodeForce> node_forces(const FlowNetwork& net, const FlowScene& s) {
@@ -37,60 +59,68 @@ std::vector<NodeForce> node_forces(const FlowNetwork& net, const FlowScene& s) {
     const Id end = b.next[part.edge];
     const Vec2 u = at(s.pose.x, s.pose.y, end) - at(s.pose.x, s.pose.y, part.edge);
     const Vec2 whole = -(part.to - part.from) * s.model.thickness * outward_normal(u);
-    const bool along = part.from_node == pipe.from;
-    const FaceEnds follows = along ? pipe.follows : FaceEnds{pipe.follows.b, pipe.follows.a};
-    const auto add = [&](Id node, FaceEnds presses, FaceEnds opens) {
-      const EndForces force =
-          on_vertices(part.from, part.to, {presses.a * whole, presses.b * whole});
-      const EndForces open = on_vertices(
-          part.from, part.to, {opens.a * follows.a * whole, opens.b * follows.b * whole});
-      forces.push_back({block, part.edge, node, force.at_from, open.at_from});
-      forces.push_back({block, end, node, force.at_to, open.at_to});
+    const auto add = [&](Id node, double at_from, double at_to) {
+      const EndForces force = on_vertices(part.from, part.to, {at_from * whole, at_to * whole});
+      forces.push_back({block, part.edge, node, force.at_from});
+      forces.push_back({block, end, node, force.at_to});
     };
-    const FaceEnds of_to = along ? pipe.of_to : FaceEnds{pipe.of_to.b, pipe.of_to.a};
-    const FaceEnds of_a{1.0 / 3.0, 1.0 / 6.0}, of_b{1.0 / 6.0, 1.0 / 3.0};
-    add(pipe.to, of_to, along ? of_b : of_a);
-    add(pipe.from, {0.5 - of_to.a, 0.5 - of_to.b}, along ? of_a : of_b);
+    const FaceEnds of_to =
+        part.from_node == pipe.from ? pipe.of_to : FaceEnds{pipe.of_to.b, pipe.of_to.a};
+    add(pipe.to, of_to.a, of_to.b);
+    add(pipe.from, 0.5 - of_to.a, 0.5 - of_to.b);
   }
   merge(
       forces, [](const NodeForce& f) { return std::tuple(f.block, f.corner, f.node); },
-      [](NodeForce& sum, const NodeForce& f) {
-        sum.force += f.force;
-        sum.opens += f.opens;
-      });
+      [](NodeForce& sum, const NodeForce& f) { sum.force += f.force; });
   return forces;
 }
 
-std::vector<Storage::Give> gives_of(const std::vector<NodeForce>& forces, const FlowScene& s,
+std::vector<EndOpening> end_openings(const FlowNetwork& net, const FlowScene& s) {
+  const BlockSet& b = s.blocks;
+  std::vector<EndOpening> openings;
+  for (const CoveredPart& part : net.covered) {
+    const Id block = b.vertex_block[part.edge];
+    if (!is_free(b, s.state, block)) continue;
+    const Id end = b.next[part.edge];
+    const Vec2 u = at(s.pose.x, s.pose.y, end) - at(s.pose.x, s.pose.y, part.edge);
+    const Vec2 inward = -1.0 / norm(u) * outward_normal(u);
+    const Id first = part.from_node == net.pipes[part.pipe].from ? 0 : 1;
+    const auto add = [&](Id side, double xi) {
+      openings.push_back({block, part.edge, 2 * part.pipe + side, (1.0 - xi) * inward});
+      openings.push_back({block, end, 2 * part.pipe + side, xi * inward});
+    };
+    add(first, part.from);
+    add(1 - first, part.to);
+  }
+  std::erase_if(openings, [](const EndOpening& o) { return o.opens == Vec2{}; });
+  std::stable_sort(openings.begin(), openings.end(), [](const auto& o, const auto& p) {
+    return std::pair(o.block, o.corner) < std::pair(p.block, p.corner);
+  });
+  return openings;
+}
+
+std::vector<Storage::Give> gives_of(const std::vector<NodeForce>& forces,
+                                    const std::vector<EndOpening>& openings, const FlowScene& s,
                                     const Masses& masses, double seconds_squared) {
   std::vector<Storage::Give> gives;
-  const double factor = seconds_squared / s.model.thickness;
-  const auto end_of = [&](std::size_t k, auto of) {
-    const std::size_t first = k;
-    while (k < forces.size() && of(forces[k]) == of(forces[first])) ++k;
-    return k;
-  };
-  const auto block_of = [](const NodeForce& f) { return f.block; };
-  const auto corner_of = [](const NodeForce& f) { return f.corner; };
-  for (std::size_t begin = 0, end = 0; begin < forces.size(); begin = end) {
-    end = end_of(begin, block_of);
-    const bool meshed = s.blocks.is_meshed(forces[begin].block);
-    for (std::size_t k = begin, k_end = begin; k < end; k = k_end) {
-      k_end = end_of(k, corner_of);
-      for (std::size_t q = meshed ? k : begin, q_end = q; q < (meshed ? k_end : end); q = q_end) {
-        q_end = end_of(q, corner_of);
-        const double moves =
-            factor * inverse_product(masses, s.blocks, forces[q].corner, forces[k].corner);
-        for (std::size_t of = q; of < q_end; ++of) {
-          for (std::size_t by = k; by < k_end; ++by)
-            gives.push_back({forces[of].node, forces[by].node,
-                             moves * dot(forces[of].opens, forces[by].force)});
-        }
-      }
+  const auto add = [&](std::span<const EndOpening> of, std::span<const NodeForce> by) {
+    if (s.blocks.is_meshed(of.front().block) && of.front().corner != by.front().corner) return;
+    const double moves =
+        seconds_squared * inverse_product(masses, s.blocks, of.front().corner, by.front().corner);
+    for (const EndOpening& o : of) {
+      for (const NodeForce& f : by) gives.push_back({o.end, f.node, moves * dot(o.opens, f.force)});
     }
-  }
+  };
+  for_runs(
+      std::span(openings), [](const EndOpening& o) { return o.block; },
+      [&](std::span<const EndOpening> moved) {
+        const std::span<const NodeForce> pressed = of_block(forces, moved.front().block);
+        for_runs(moved, corner_of, [&](std::span<const EndOpening> of) {
+          for_runs(pressed, corner_of, [&](std::span<const NodeForce> by) { add(of, by); });
+        });
+      });
   merge(
-      gives, [](const Storage::Give& g) { return std::pair(g.node, g.other); },
+      gives, [](const Storage::Give& g) { return std::pair(g.end, g.node); },
       [](Storage::Give& sum, const Storage::Give& g) { sum.compliance += g.compliance; });
   return gives;
 }

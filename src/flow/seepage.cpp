@@ -61,6 +61,7 @@ class SeepageSolver {
   struct Neighbour {
     Id node;
     double conductance;
+    Id end;  ///< of the pipe, here; the other one is end ^ 1
   };
 
   /// No potential is above the highest one given, but where water is injected. Where nothing is
@@ -108,16 +109,17 @@ class SeepageSolver {
     std::partial_sum(begin_.begin(), begin_.end(), begin_.begin());
     of_node_.resize(begin_.back());
     std::vector<std::size_t> next(begin_.begin(), begin_.end() - 1);
-    for (const FlowPipe& p : net_.pipes) {
-      of_node_[next[p.from]++] = {p.to, p.conductance};
-      of_node_[next[p.to]++] = {p.from, p.conductance};
+    for (Id q = 0; q < net_.pipes.size(); ++q) {
+      const FlowPipe& p = net_.pipes[q];
+      of_node_[next[p.from]++] = {p.to, p.conductance, 2 * q};
+      of_node_[next[p.to]++] = {p.from, p.conductance, 2 * q + 1};
     }
   }
 
   void list_gives() {
-    first_give_.assign(net_.nodes.size() + 1, 0);
     if (storage_ == nullptr) return;
-    for (const Storage::Give& g : storage_->gives) ++first_give_[g.node + 1];
+    first_give_.assign(2 * net_.pipes.size() + 1, 0);
+    for (const Storage::Give& g : storage_->gives) ++first_give_[g.end + 1];
     std::partial_sum(first_give_.begin(), first_give_.end(), first_give_.begin());
   }
 
@@ -140,8 +142,7 @@ class SeepageSolver {
     }
     for (Id n = 0; n < given_.size(); ++n) {
       if (given_[n].kind != Kind::inside && given_[n].kind != Kind::rain) continue;
-      const bool joins = begin_[n + 1] > begin_[n] || (storage_ && storage_->volume[n] > 0.0);
-      if (connected[n] != 0 && joins) {
+      if (connected[n] != 0 && begin_[n + 1] > begin_[n]) {
         inside_.push_back(n);
       } else {
         water_[n] = {0.0, given_[n].kind == Kind::rain ? 1.0 : 0.0};
@@ -153,7 +154,7 @@ class SeepageSolver {
     const NodeWater w = water_[n];
     Balance b;
     for (std::size_t q = begin_[n]; q < begin_[n + 1]; ++q) {
-      const auto [m, conductance] = of_node_[q];
+      const auto [m, conductance, end] = of_node_[q];
       const double drop = potential(n) - potential(m);
       const double conducts = drop >= 0.0 ? w.filled : water_[m].filled;
       b.net += conductance * conducts * drop;
@@ -171,24 +172,57 @@ class SeepageSolver {
   void store(Id n, Balance& b) const {
     for (double* value : {&b.net, &b.by_pressure, &b.by_filled}) *value *= storage_->passed;
     if (given_[n].kind == Kind::rain) return;
-    const NodeWater w = water_[n];
-    const double volume = volume_of(n), part = w.filled + w.pressure / storage_->bulk_modulus;
-    b.net += volume * part - storage_->content[n];
+    double volume = 0.0, drawn = 0.0;
+    for (std::size_t q = begin_[n]; q < begin_[n + 1]; ++q) {
+      const auto [m, conductance, end] = of_node_[q];
+      volume += volume_at(net_.pipes[end / 2], aperture(end).value(), aperture(end ^ 1).value());
+      drawn += drawn_in(end) * water_[m].filled;
+    }
+    b.net += volume * part_of(n) + drawn * water_[n].filled - storage_->content[n];
     b.by_pressure += volume / storage_->bulk_modulus;
-    b.by_filled += volume;
-    for (std::size_t q = first_give_[n]; q < first_give_[n + 1]; ++q) {
-      if (storage_->gives[q].other == n) b.by_pressure += part * storage_->gives[q].compliance;
-    }
+    b.by_filled += volume + drawn;
+    for_growth(n, [&](Id node, double growth) {
+      if (node == n) b.by_pressure += growth;
+    });
   }
-  /// V under the pressures as they are; at least a small part of what it was.
-  double volume_of(Id n) const {
-    double volume = storage_->volume[n];
-    for (std::size_t q = first_give_[n]; q < first_give_[n + 1]; ++q) {
+  /// drawn_to() the node at this end, of a pipe that water fills.
+  double drawn_in(Id end) const {
+    const auto opening = [&](Id e) { return aperture(e).value() - storage_->before[e]; };
+    const Id a = end & ~Id{1};
+    const double to = drawn_to(net_.pipes[end / 2], {opening(a), opening(a + 1)});
+    return end == a ? -to : to;
+  }
+  /// s + p/K
+  double part_of(Id n) const {
+    return water_[n].filled + water_[n].pressure / storage_->bulk_modulus;
+  }
+  /// At an end of a pipe, under the pressures as they are.
+  Aperture aperture(Id end) const {
+    Aperture found = net_.pipes[end / 2].aperture[end % 2];
+    for (std::size_t q = first_give_[end]; q < first_give_[end + 1]; ++q) {
       const Storage::Give& g = storage_->gives[q];
-      volume += g.compliance * (water_[g.other].pressure - storage_->acting[g.other]);
+      found.walls += g.compliance * (water_[g.node].pressure - storage_->acting[g.node]);
     }
-    constexpr double least = 1e-3;
-    return std::max(volume, least * storage_->volume[n]);
+    return found;
+  }
+  /// Calls f(node, m2/Pa): how what n stores grows with the pressure at the node as walls part;
+  /// more than once for some.
+  template <class F>
+  void for_growth(Id n, const F& f) const {
+    for (std::size_t q = begin_[n]; q < begin_[n + 1]; ++q) {
+      const auto [m, conductance, here] = of_node_[q];
+      const FlowPipe& pipe = net_.pipes[here / 2];
+      const double both = (here % 2 == 0 ? -1.0 : 1.0) * water_[n].filled * water_[m].filled;
+      for (const Id end : {here, here ^ 1}) {
+        const Aperture now = aperture(end);
+        if (now.walls < now.least || now.walls > now.largest) continue;
+        const double at_a = end % 2 == 0 ? 1.0 : 0.0, at_here = end == here ? 1.0 : 0.0;
+        const double weight = part_of(n) * volume_at(pipe, at_here, 1.0 - at_here) +
+                              both * drawn_to(pipe, {at_a, 1.0 - at_a});
+        for (std::size_t k = first_give_[end]; k < first_give_[end + 1]; ++k)
+          f(storage_->gives[k].node, weight * storage_->gives[k].compliance);
+      }
+    }
   }
 
   /// As a part of what flows through the node, or of what it stores as its unknown grows.
@@ -266,7 +300,8 @@ class SeepageSolver {
       const Balance b = balance_of(inside_[k]);
       wet[k] = is_wet(inside_[k], b.net) ? 1 : 0;
       const double own = wet[k] != 0 ? b.by_pressure : b.by_filled;
-      if (runs_off(inside_[k], b.net) || own == 0.0) {
+      if (runs_off(inside_[k], b.net) || !(own > 0.0)) {
+        if (wet[k] == 0 && b.net < 0.0) water_[inside_[k]].filled = 1.0;  // more than it can hold
         full[k] = 1;
         add(k, k, 1.0);
         right[static_cast<Eigen::Index>(k)] = 0.0;
@@ -284,22 +319,21 @@ class SeepageSolver {
       const Id n = inside_[k];
       if (full[k] != 0) continue;
       for (std::size_t q = begin_[n]; q < begin_[n + 1]; ++q) {
-        const auto [m, conductance] = of_node_[q];
+        const auto [m, conductance, end] = of_node_[q];
         if (row[m] == no_id || full[row[m]] != 0) continue;
         const double drop = potential(n) - potential(m);
         const bool leaves = drop >= 0.0;
         if (wet[row[m]] != 0) {
           add(k, row[m], -time * conductance * (leaves ? water_[n].filled : water_[m].filled));
-        } else if (!leaves) {
-          add(k, row[m], time * conductance * drop);
+        } else {
+          if (!leaves) add(k, row[m], time * conductance * drop);
+          if (storage_ != nullptr) add(k, row[m], drawn_in(end) * water_[n].filled);
         }
       }
-      for (std::size_t q = first_give_[n]; q < first_give_[n + 1]; ++q) {
-        const auto [node, other, compliance] = storage_->gives[q];
-        if (other == n || row[other] == no_id || wet[row[other]] == 0) continue;
-        add(k, row[other],
-            compliance * (water_[n].filled + water_[n].pressure / storage_->bulk_modulus));
-      }
+      if (storage_ == nullptr || given_[n].kind == Kind::rain) continue;
+      for_growth(n, [&](Id m, double growth) {
+        if (m != n && row[m] != no_id && wet[row[m]] != 0) add(k, row[m], growth);
+      });
     }
     if (rows == 0) return;
     Eigen::SparseMatrix<double> matrix(rows, rows);

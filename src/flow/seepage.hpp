@@ -1,6 +1,7 @@
 // Flow through the network of joints, with a free surface (theory, section 13.9).
 // Within a time dt the nodes store water, too (13.9.5):
-//   V (s + p/K) - content + dt sum q = 0
+//   V (s + p/K) + sum s s' drawn - content + dt sum q = 0
+// with what walls that part draw to the node in pipes from others (drawn_to()).
 //
 // Of a node: p >= 0 its pressure, s the part of it that water fills, phi = p + gamma y. Either p >
 // 0 and s = 1 (wet), or p = 0 and 0 <= s <= 1 (air enters). A pipe from i to j, phi_i >= phi_j, has
@@ -38,16 +39,17 @@ struct NodeWater {
 
 /// What the joints store while a time passes.
 struct Storage {
-  double passed = 0.0;        ///< s
-  double bulk_modulus = 0.0;  ///< K of water, Pa
-  /// [nodes] V of the node under the pressures `acting`, m2, and V (s + p/K) at the beginning.
-  std::vector<double> volume, content;
-  std::vector<double> acting;  ///< [nodes] Pa
+  double passed = 0.0;          ///< s
+  double bulk_modulus = 0.0;    ///< K of water, Pa
+  std::vector<double> content;  ///< [nodes] V (s + p/K) at the beginning, m2
+  std::vector<double> before;   ///< [2 pipes] apertures at their ends at the beginning, m
+  std::vector<double> acting;  ///< [nodes] the pressures under which the apertures are those of the
+                               ///< network, Pa
   struct Give {
-    Id node, other;
-    double compliance;  ///< m2/Pa: growth of V of `node` under a pressure at `other`
+    Id end, node;       ///< end e of pipe q: 2 q + e
+    double compliance;  ///< m/Pa: how the walls at `end` open under a pressure at `node`
   };
-  std::vector<Give> gives;  ///< by node
+  std::vector<Give> gives;  ///< by end
 };
 
 /// Solves for the water of all nodes. [nodes] water: on entry a guess, as that of a state before.

@@ -63,6 +63,8 @@ void list_flow(Archive& a, Simulation& s) {
   list_member(a, "flow.contents.part_to", water.contents, &WaterContent::part_to);
   list_member(a, "flow.contents.from", water.contents, &WaterContent::from);
   list_member(a, "flow.contents.to", water.contents, &WaterContent::to);
+  list_member(a, "flow.contents.aperture_from", water.contents, &WaterContent::aperture_from);
+  list_member(a, "flow.contents.aperture_to", water.contents, &WaterContent::aperture_to);
   auto kind = static_cast<std::uint64_t>(s.attached.loads.flow);
   a("flow.kind", kind);
   s.attached.loads.flow = static_cast<JointFlow>(kind);
