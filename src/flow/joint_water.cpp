@@ -323,13 +323,17 @@ std::vector<CornerForce> flow_in_step(JointWater& joints, const FlowScene& scene
   return forces;
 }
 
-void keep_water(JointWater& joints, const Loads& loads, Index waters) {
+void keep_water(JointWater& joints, const BlockSet& blocks, Index waters, Loads& loads) {
   joints.before.clear();
-  for (WetEdge e : loads.wet) {
+  std::vector<WetEdge> wet = std::move(loads.wet);
+  std::erase_if(wet, [&](const WetEdge& e) { return e.water > waters; });
+  for (WetEdge e : wet) {
     if (e.water != waters) continue;
     e.water = waters + 1;
     joints.before.push_back(e);
   }
+  wet.insert(wet.begin(), joints.before.begin(), joints.before.end());
+  put_water(blocks, std::move(wet), loads);
 }
 
 const FlowRow* row_of(const JointWater& joints, Id edge, Id facing) {

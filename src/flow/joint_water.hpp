@@ -61,8 +61,9 @@ struct WaterInStep {
 /// blocks, by block, so that the step is made under the pressures at its end.
 std::vector<CornerForce> flow_in_step(JointWater& joints, const FlowScene& scene,
                                       const LoadsNow& now, const WaterInStep& step, Loads& loads);
-/// What follows changes gradually from the water in joints as it is now.
-void keep_water(JointWater& joints, const Loads& loads, Index waters);
+/// What follows changes gradually from the water in joints as it is now, which is there twice from
+/// then on: as it is and, of the other part of its weight, as it was.
+void keep_water(JointWater& joints, const BlockSet& blocks, Index waters, Loads& loads);
 
 /// The row of the face between two edges; null: no water flows in it.
 const FlowRow* row_of(const JointWater& joints, Id edge, Id facing);

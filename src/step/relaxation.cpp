@@ -352,7 +352,8 @@ void begin_gradually(Simulation& sim, const std::vector<double>& strength_factor
   changes = changes || sim.scene->model.flow.has_value();
   if (changes) loads.gradual = {state.time, 0.0, false, least, more ? 0.0 : periods};
   if (changes && loads.flow == JointFlow::steady)
-    keep_water(sim.attached.joint_water, loads, static_cast<Index>(sim.scene->model.waters.size()));
+    keep_water(sim.attached.joint_water, sim.scene->blocks,
+               static_cast<Index>(sim.scene->model.waters.size()), loads);
   if (changes && !more && has_bonds(sim.motion.contacts)) hold_joints(sim);
   relaxation.estimate.least = 0.5 * relaxation.estimate.frequency;
   relaxation.strength_from = laws.divided_by;

@@ -46,9 +46,10 @@ SectionStrength strength_of(const Model& model, const Lining& lining, const Mate
   const double thick = lining.plastic_moment ? 8.0 * *lining.plastic_moment * model.thickness /
                                                    lining.spacing / (both * area)
                                              : t;
-  if (residual) {
-    compressive = lining.residual->compressive_strength.value_or(compressive);
-    tensile = lining.residual->tensile_strength.value_or(tensile);
+  if (residual) {  // of young concrete no more than it has
+    compressive =
+        std::min(compressive, lining.residual->compressive_strength.value_or(compressive));
+    tensile = std::min(tensile, lining.residual->tensile_strength.value_or(tensile));
   }
   return rectangle_strength(compressive, tensile, area, thick);
 }

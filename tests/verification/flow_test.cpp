@@ -131,26 +131,25 @@ TEST(Flow, DiffusionAlongAJoint) {
   for (Id n = 0; n <= pipes; ++n) net.nodes[n].place = {n * part, 0.0};
   for (Id n = 0; n < pipes; ++n) {
     const double conductance = conductance_of(h, h, part, viscosity);
-    net.pipes.push_back({0, n, n + 1, 0.0, 1.0, part, conductance, {}, {}, {}});
-    for (const Id end : {n, n + 1}) {
-      net.nodes[end].conductance += conductance;
-      net.nodes[end].volume += 0.5 * part * h;
-    }
+    const Aperture rigid{h, h, h};
+    net.pipes.push_back(
+        {0, n, n + 1, 0.0, 1.0, part, conductance, parts_of_end(h, h), {rigid, rigid}});
+    for (const Id end : {n, n + 1}) net.nodes[end].conductance += conductance;
   }
   std::vector<NodeCondition> given(net.nodes.size());
   given[0] = {NodeCondition::Kind::pressure, p0, 0};
   std::vector<NodeWater> water(net.nodes.size(), {0.0, 1.0});
   Storage storage;
   storage.bulk_modulus = K;
+  storage.before.assign(2 * pipes, h);
   storage.passed = 0.5 * length * length / c / increments;
   FurthestOff middle, end;
   for (int k = 1; k <= increments; ++k) {
-    storage.volume.clear();
     storage.content.clear();
     storage.acting.clear();
     for (std::size_t n = 0; n < net.nodes.size(); ++n) {
-      storage.volume.push_back(net.nodes[n].volume);
-      storage.content.push_back(net.nodes[n].volume * (water[n].filled + water[n].pressure / K));
+      const double volume = (n == 0 || n == pipes ? 0.5 : 1.0) * part * h;
+      storage.content.push_back(volume * (water[n].filled + water[n].pressure / K));
       storage.acting.push_back(water[n].pressure);
     }
     ASSERT_TRUE(solve_seepage(net, given, gamma, water, &storage));

@@ -67,7 +67,8 @@ void check_strength(const Value* node, const Lining& lining, Reading& reading) {
           "belongs to the area and compressive_strength of steel sets");
 }
 
-/// The residual strength is no more than the one before it.
+/// The residual strength is no more than the one before it, which may be that of a material to
+/// which the lining changes.
 void check_residual(const Value* node, const Lining& lining, Reading& reading) {
   if (!lining.residual) return;
   const Value* own = find(node, "residual");
@@ -83,11 +84,15 @@ void check_residual(const Value* node, const Lining& lining, Reading& reading) {
               "give that, or the material a strength = { ucs = ..., tension = ... }");
     return;
   }
-  const bool elsewhere = !lining.compressive_strength;
-  const double compressive = elsewhere ? of_material->ucs : *lining.compressive_strength,
-               tensile = elsewhere
-                             ? of_material->tension
-                             : lining.tensile_strength.value_or(lining.area ? compressive : 0.0);
+  double compressive = lining.compressive_strength.value_or(0.0),
+         tensile = lining.tensile_strength.value_or(lining.area ? compressive : 0.0);
+  if (!lining.compressive_strength) {
+    for (const Material& m : reading.model.materials) {
+      if (!m.strength) continue;
+      compressive = std::max(compressive, m.strength->ucs);
+      tensile = std::max(tensile, m.strength->tension);
+    }
+  }
   const auto check = [&](const char* key, const std::optional<double>& after, double before) {
     if (!after || *after <= before) return;
     add_fault(reading, find(own, key)->place, path + "." + key,
