@@ -227,11 +227,11 @@ TEST(Seepage, RandomNetworksHoldTheirConditions) {
 
 /// What walls that part draw to a node is what its pressure presses on them.
 TEST(Seepage, VolumesOfTaperedPipesFollowTheWorkOfTheirPressures) {
-  FlowPipe pipe{0, 0, 1, 0.0, 1.0, 3.0, 1e-9, parts_of_end(2e-4, 3e-5), {}};
-  EXPECT_DOUBLE_EQ(volume_at(pipe, 0.0, 1.0) + drawn_to(pipe, {1.0, 0.0}), 3.0 * pipe.of_to.a);
-  EXPECT_DOUBLE_EQ(volume_at(pipe, 1.0, 0.0) + drawn_to(pipe, {0.0, 1.0}), 3.0 * pipe.of_to.b);
-  EXPECT_DOUBLE_EQ(volume_at(pipe, 1.0, 0.0) - drawn_to(pipe, {1.0, 0.0}),
-                   3.0 * (0.5 - pipe.of_to.a));
+  const FlowPipe pipe{0, 0, 1, 0.0, 1.0, 3.0, 1e-9, parts_of_end(2e-4, 3e-5), {}};
+  EXPECT_NEAR(volume_at(pipe, 0.0, 1.0) + drawn_to(pipe, {1.0, 0.0}), 3.0 * pipe.of_to.a, 1e-15);
+  EXPECT_NEAR(volume_at(pipe, 1.0, 0.0) + drawn_to(pipe, {0.0, 1.0}), 3.0 * pipe.of_to.b, 1e-15);
+  EXPECT_NEAR(volume_at(pipe, 1.0, 0.0) - drawn_to(pipe, {1.0, 0.0}), 3.0 * (0.5 - pipe.of_to.a),
+              1e-15);
 }
 
 /// Apertures some of which are at their bounds, and walls that pressures part.

@@ -1,7 +1,12 @@
 // Water that flows through joints, against closed-form solutions: validation.md rows 92 to 98.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
+#include "contacts/face_softening.hpp"
 #include "step/changes.hpp"
 #include "step/faces_now.hpp"
 #include "verification/record.hpp"
@@ -247,58 +252,105 @@ TEST(Flow, AChangedApertureKeepsThePressure) {
   for (const auto& [x, p] : excess_pressures(settled(text).sim)) EXPECT_NEAR(p, 0.0, 0.1) << x;
 }
 
-/// Upper right quarter of a plane fracture that a borehole opens in rock without toughness: half of
-/// its aperture w, so that a quarter of the injection Q and of the viscosity flow as in the whole.
-std::string quarter_of_fracture() {
+/// Upper right quarter of a plane fracture that a borehole opens, in zones of 1 m: half of its
+/// aperture w, so that a quarter of the injection Q and of the viscosity flow as in the whole.
+constexpr double Q = 1e-2, t = 4.0, E = 30e9 / 0.96;  // E' = E/(1 - nu^2)
+std::string quarter_of_fracture(const std::string& joint, double quarter_of_viscosity, int steps) {
   return "gravity = [0, 0]\n"
          "[materials.far]\ndensity = 2500\nyoung = 30e9\npoisson = 0.2\nzone_size = 8\n"
-         "[materials.near]\ndensity = 2500\nyoung = 30e9\npoisson = 0.2\nzone_size = 0.75\n"
-         "[joints.plane]\nfriction_angle = 0\nkn = 1e12\n"
-         "aperture = 2e-6\nresidual_aperture = 1e-6\nlargest_aperture = 1e-2\n"
+         "[materials.near]\ndensity = 2500\nyoung = 30e9\npoisson = 0.2\nzone_size = 1\n"
+         "[joints.plane]\nfriction_angle = 0\nlargest_aperture = 1e-2\n" +
+         joint +
          "[joints.none]\ntype = 'glued'\n[contact]\njoint = 'none'\n"
          "[domain]\noutline = [[0, -10], [240, -10], [240, 240], [0, 240]]\nmaterial = 'far'\n"
          "[[trace]]\npoints = [[0, 0], [240, 0]]\njoint = 'plane'\n"
-         "[[region]]\npolygon = [[0, 0], [40, 0], [40, 20], [0, 20]]\nmaterial = 'near'\n"
+         "[[region]]\npolygon = [[0, 0], [28, 0], [28, 10], [0, 10]]\nmaterial = 'near'\n"
          "[[fixed]]\npoint = [100, -5]\n[initial_stress]\nstress = [-5e6, -5e6, 0]\n"
          "[[boundary]]\nsides = ['left', 'right', 'top']\ntype = 'roller'\n[zones]\n"
-         "[flow]\nviscosity = 0.25e-3\n"
-         "[[water]]\nname = 'borehole'\ninjection = 0.25e-2\nat = [0, 0]\n"
+         "[flow]\nviscosity = " +
+         fmt::format("{:g}", quarter_of_viscosity) +
+         "\n[[water]]\nname = 'borehole'\ninjection = 0.25e-2\nat = [0, 0]\n"
          "[[stage]]\nuntil = 'equilibrium'\n[[stage]]\nactivate = ['borehole']\nramp = { flow = "
-         "[0, 4], steps = 16 }\n";
+         "[0, 4], steps = " +
+         std::to_string(steps) + " }\n";
+}
+/// Of one side of the fracture, by the place of the middles of its parts.
+struct Opened {
+  double pressure;  // the largest, less the stress
+  std::vector<double> x, aperture;
+  std::vector<double> damage;
+};
+Opened opened(const Simulation& sim) {
+  const BlockSet& b = sim.scene->blocks;
+  Opened found{0.0, {}, {}, {}};
+  std::vector<std::array<double, 3>> parts;
+  const FaceSet& faces = sim.motion.contacts;
+  for (std::size_t k = 0; k < faces.size(); ++k) {
+    const FlowRow* row = row_of(sim.attached.joint_water, faces.edge[k], faces.facing[k]);
+    if (row == nullptr) continue;
+    const Id edge = b.edge_length[row->edge] < b.edge_length[row->facing] ? row->edge : row->facing;
+    parts.push_back({0.5 * (b.vertex(edge).x + b.vertex(b.next[edge]).x) + b.origin.x,
+                     row->aperture, damage_of(faces, sim.motion.laws, k).a});
+  }
+  std::sort(parts.begin(), parts.end());
+  for (const auto& [x, aperture, damage] : parts) {
+    found.x.push_back(x);
+    found.aperture.push_back(aperture);
+    found.damage.push_back(damage);
+  }
+  for (const double p : sim.attached.joint_water.pressure)
+    found.pressure = std::max(found.pressure, p - 5e6);
+  return found;
+}
+/// Of the whole fracture at the borehole.
+double width(const Opened& of) {
+  const double slope = (of.aperture[0] - of.aperture[1]) / (of.x[1] - of.x[0]);
+  return 2.0 * (of.aperture[0] + slope * of.x[0]);
 }
 
 TEST(Flow, ABoreholeOpensAJoint) {
-  const PreparedRun run = settled(quarter_of_fracture());
-  // Half apertures over the fracture, above what the joint had.
-  const BlockSet& b = run.sim.scene->blocks;
-  std::vector<std::pair<double, double>> aperture;
-  for (const FlowRow& row : run.sim.attached.joint_water.rows) {
-    const Id edge = b.edge_length[row.edge] < b.edge_length[row.facing] ? row.edge : row.facing;
-    aperture.emplace_back(0.5 * (b.vertex(edge).x + b.vertex(b.next[edge]).x) + b.origin.x,
-                          row.aperture);
-  }
-  std::sort(aperture.begin(), aperture.end());
-  double pressure = 0.0;
-  for (const double p : run.sim.attached.joint_water.pressure) pressure = std::max(pressure, p);
+  const PreparedRun run = settled(quarter_of_fracture(
+      "kn = 1e12\naperture = 2e-6\nresidual_aperture = 1e-6\n", 0.25 * viscosity, 32));
+  const Opened of = opened(run.sim);
   // Geertsma and de Klerk's fracture without toughness and lag (Adachi & Detournay 2002): constants
-  // of the self-similar solution, E' = E/(1 - nu^2), mu' = 12 mu.
-  constexpr double Q = 1e-2, t = 4.0, E = 30e9 / 0.96, mu = 12.0 * viscosity;
+  // of the self-similar solution, mu' = 12 mu.
+  constexpr double mu = 12.0 * viscosity;
   const double length = std::pow(E * Q * Q * Q * t * t * t * t / mu, 1.0 / 6.0);
   const double small = std::cbrt(mu / (E * t));
   expect_relative({103, "zero toughness", "pressure at the borehole less the stress", "Pa"},
-                  pressure - 5e6, 0.5445 * small * E, 0.05);
-  const double slope =
-      (aperture[0].second - aperture[1].second) / (aperture[1].first - aperture[0].first);
-  expect_relative({103, "zero toughness", "aperture at the borehole", "m"},
-                  2.0 * (aperture[0].second + slope * aperture[0].first), 1.1254 * small * length,
-                  0.05);
+                  of.pressure, 0.5445 * small * E, 0.05);
+  expect_relative({103, "zero toughness", "aperture at the borehole", "m"}, width(of),
+                  1.1254 * small * length, 0.05);
   // Near its end w^(3/2) falls linearly to 0: from the last two parts wider than a tenth.
   std::size_t last = 0;
-  while (aperture[last + 1].second > 0.1 * aperture[0].second) ++last;
-  const auto power = [&](std::size_t k) { return std::pow(aperture[k].second, 1.5); };
-  const double end = aperture[last].first + power(last) / (power(last - 1) - power(last)) *
-                                                (aperture[last].first - aperture[last - 1].first);
+  while (of.aperture[last + 1] > 0.1 * of.aperture[0]) ++last;
+  const auto power = [&](std::size_t k) { return std::pow(of.aperture[k], 1.5); };
+  const double end =
+      of.x[last] + power(last) / (power(last - 1) - power(last)) * (of.x[last] - of.x[last - 1]);
   expect_relative({103, "zero toughness", "half length", "m"}, end, 0.6158 * length, 0.05);
+}
+
+TEST(Flow, ABoreholeSplitsRock) {
+  // Nearly without viscosity the pressure is uniform: w = 4 p l/E', K = p sqrt(pi l), and the
+  // volume pi l w/2 is what has been injected. Of the energy of the fracture each side has a half.
+  constexpr double energy = 2.0 * 338.56, thin = 1e-5;
+  const double K = std::sqrt(energy * E);
+  const PreparedRun run = settled(quarter_of_fracture(
+      "kn = 5e11\nks = 1e6\naperture = 5e-7\nresidual_aperture = 2e-7\ntensile_strength = 2.5e6\n"
+      "cohesion = 25e6\nfracture_energy = 338.56\nshear_fracture_energy = 10e3\n",
+      0.25 * thin, 16));
+  const Opened of = opened(run.sim);
+  const double half = std::pow(E * Q * t / (2.0 * std::sqrt(std::numbers::pi) * K), 2.0 / 3.0);
+  const double pressure = K / std::sqrt(std::numbers::pi * half);
+  expect_relative({104, "nearly no viscosity", "pressure at the borehole less the stress", "Pa"},
+                  of.pressure, pressure, 0.05);
+  expect_relative({104, "nearly no viscosity", "aperture at the borehole", "m"}, width(of),
+                  4.0 * pressure * half / E, 0.05);
+  // That of the ellipse on which the aperture lies before the process zone.
+  std::size_t last = 0;
+  while (of.damage[last + 1] == 1.0) ++last;
+  const double end = of.x[last] / std::sqrt(1.0 - std::pow(2.0 * of.aperture[last] / width(of), 2));
+  expect_relative({104, "nearly no viscosity", "half length", "m"}, end, half, 0.05);
 }
 
 TEST(Flow, TimeEnoughIsSteadyFlow) {

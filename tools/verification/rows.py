@@ -452,5 +452,10 @@ ROWS = (
         "Water is injected for 4 s into a joint of meshed elastic rock under 5 MPa, of which the joint takes no tension: a quarter"
         " of the fracture.",
         "The plane-strain fracture of Geertsma and de Klerk without toughness and lag (self-similar; Adachi and Detournay 2002).",
-        "Zones of 0.75 m beside a fracture of 18 m, 16 increments."),
+        "Zones of 1 m beside a fracture of 18 m, 32 increments."),
+    Row(104, "A borehole splits rock",
+        "The same in rock with tensile strength and fracture energy, by water of a hundredth of the viscosity.",
+        "A crack under the uniform pressure that gives it the volume injected and the toughness of the rock.",
+        "Half of the energy of the fracture is that of the modelled side. The joint has next to no shear stiffness: it lies in a plane"
+        " of symmetry."),
 )
