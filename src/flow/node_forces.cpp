@@ -1,6 +1,7 @@
 #include "flow/node_forces.hpp"
 
 #include <algorithm>
+#include <cstdint>
 #include <span>
 #include <tuple>
 
@@ -102,26 +103,32 @@ std::vector<EndOpening> end_openings(const FlowNetwork& net, const FlowScene& s)
 std::vector<Storage::Give> gives_of(const std::vector<NodeForce>& forces,
                                     const std::vector<EndOpening>& openings, const FlowScene& s,
                                     const Masses& masses, double seconds_squared) {
-  std::vector<Storage::Give> gives;
+  std::vector<Storage::Give> gives, of_one;  // the latter of one block
   const auto add = [&](std::span<const EndOpening> of, std::span<const NodeForce> by) {
     if (s.blocks.is_meshed(of.front().block) && of.front().corner != by.front().corner) return;
     const double moves =
         seconds_squared * inverse_product(masses, s.blocks, of.front().corner, by.front().corner);
     for (const EndOpening& o : of) {
-      for (const NodeForce& f : by) gives.push_back({o.end, f.node, moves * dot(o.opens, f.force)});
+      for (const NodeForce& f : by)
+        of_one.push_back({o.end, f.node, moves * dot(o.opens, f.force)});
     }
   };
-  for_runs(
-      std::span(openings), [](const EndOpening& o) { return o.block; },
-      [&](std::span<const EndOpening> moved) {
-        const std::span<const NodeForce> pressed = of_block(forces, moved.front().block);
-        for_runs(moved, corner_of, [&](std::span<const EndOpening> of) {
-          for_runs(pressed, corner_of, [&](std::span<const NodeForce> by) { add(of, by); });
-        });
-      });
-  merge(
-      gives, [](const Storage::Give& g) { return std::pair(g.end, g.node); },
-      [](Storage::Give& sum, const Storage::Give& g) { sum.compliance += g.compliance; });
+  const auto sum_up = [](std::vector<Storage::Give>& rows) {
+    merge(
+        rows, [](const Storage::Give& g) { return std::uint64_t{g.end} << 32U | g.node; },
+        [](Storage::Give& sum, const Storage::Give& g) { sum.compliance += g.compliance; });
+  };
+  const auto block_of = [](const EndOpening& o) { return o.block; };
+  for_runs(std::span(openings), block_of, [&](std::span<const EndOpening> moved) {
+    const std::span<const NodeForce> pressed = of_block(forces, moved.front().block);
+    of_one.clear();
+    for_runs(moved, corner_of, [&](std::span<const EndOpening> of) {
+      for_runs(pressed, corner_of, [&](std::span<const NodeForce> by) { add(of, by); });
+    });
+    sum_up(of_one);
+    gives.insert(gives.end(), of_one.begin(), of_one.end());
+  });
+  sum_up(gives);
   return gives;
 }
 

@@ -175,7 +175,7 @@ class SeepageSolver {
     double volume = 0.0, drawn = 0.0;
     for (std::size_t q = begin_[n]; q < begin_[n + 1]; ++q) {
       const auto [m, conductance, end] = of_node_[q];
-      volume += volume_at(net_.pipes[end / 2], aperture(end).value(), aperture(end ^ 1).value());
+      volume += volume_at(net_.pipes[end / 2], aperture_[end].value(), aperture_[end ^ 1].value());
       drawn += drawn_in(end) * water_[m].filled;
     }
     b.net += volume * part_of(n) + drawn * water_[n].filled - storage_->content[n];
@@ -187,7 +187,7 @@ class SeepageSolver {
   }
   /// drawn_to() the node at this end, of a pipe that water fills.
   double drawn_in(Id end) const {
-    const auto opening = [&](Id e) { return aperture(e).value() - storage_->before[e]; };
+    const auto opening = [&](Id e) { return aperture_[e].value() - storage_->before[e]; };
     const Id a = end & ~Id{1};
     const double to = drawn_to(net_.pipes[end / 2], {opening(a), opening(a + 1)});
     return end == a ? -to : to;
@@ -196,14 +196,20 @@ class SeepageSolver {
   double part_of(Id n) const {
     return water_[n].filled + water_[n].pressure / storage_->bulk_modulus;
   }
-  /// At an end of a pipe, under the pressures as they are.
-  Aperture aperture(Id end) const {
-    Aperture found = net_.pipes[end / 2].aperture[end % 2];
-    for (std::size_t q = first_give_[end]; q < first_give_[end + 1]; ++q) {
-      const Storage::Give& g = storage_->gives[q];
-      found.walls += g.compliance * (water_[g.node].pressure - storage_->acting[g.node]);
+  /// Finds the apertures of both ends of a pipe under the pressures as they are.
+  void find_apertures(Id pipe) {
+    for (const Id end : {2 * pipe, 2 * pipe + 1}) {
+      aperture_[end] = net_.pipes[pipe].aperture[end % 2];
+      for (std::size_t q = first_give_[end]; q < first_give_[end + 1]; ++q) {
+        const Storage::Give& g = storage_->gives[q];
+        aperture_[end].walls += g.compliance * (water_[g.node].pressure - storage_->acting[g.node]);
+      }
     }
-    return found;
+  }
+  void find_apertures() {
+    if (storage_ == nullptr) return;
+    aperture_.resize(2 * net_.pipes.size());
+    for (Id q = 0; q < net_.pipes.size(); ++q) find_apertures(q);
   }
   /// Calls f(node, m2/Pa): how what n stores grows with the pressure at the node as walls part;
   /// more than once for some.
@@ -214,7 +220,7 @@ class SeepageSolver {
       const FlowPipe& pipe = net_.pipes[here / 2];
       const double both = (here % 2 == 0 ? -1.0 : 1.0) * water_[n].filled * water_[m].filled;
       for (const Id end : {here, here ^ 1}) {
-        const Aperture now = aperture(end);
+        const Aperture now = aperture_[end];
         if (now.walls < now.least || now.walls > now.largest) continue;
         const double at_a = end % 2 == 0 ? 1.0 : 0.0, at_here = end == here ? 1.0 : 0.0;
         const double weight = part_of(n) * volume_at(pipe, at_here, 1.0 - at_here) +
@@ -226,7 +232,8 @@ class SeepageSolver {
   }
 
   /// As a part of what flows through the node, or of what it stores as its unknown grows.
-  double largest_imbalance() const {
+  double largest_imbalance() {
+    find_apertures();
     double largest = 0.0;
     for (const Id n : inside_) {
       const Balance b = balance_of(n);
@@ -258,6 +265,8 @@ class SeepageSolver {
   void balance(Id n) {
     constexpr int most = 30;
     for (int k = 0; k < most; ++k) {
+      for (std::size_t q = begin_[n]; q < begin_[n + 1] && storage_ != nullptr; ++q)
+        find_apertures(of_node_[q].end / 2);
       const Balance b = balance_of(n);
       const bool wet = is_wet(n, b.net);
       const double slope = wet ? b.by_pressure : b.by_filled;
@@ -351,6 +360,7 @@ class SeepageSolver {
   std::vector<NodeWater>& water_;
   const Storage* storage_;  // null: the flow is steady
   std::vector<std::size_t> begin_, first_give_;
+  std::vector<Aperture> aperture_;  // [2 pipes] as Storage::Give::end
   std::vector<Neighbour> of_node_;
   std::vector<Id> inside_;                                    // from the highest to the lowest
   double highest_ = std::numeric_limits<double>::infinity();  // potential, Pa
