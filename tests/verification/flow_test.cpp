@@ -177,6 +177,20 @@ TEST(Flow, TimeAloneChangesNothing) {
   EXPECT_NEAR(normal_force(in_time.sim) / steady, 1.0, 1e-6);
 }
 
+/// Water stays while a ramp begins: one that changes nothing moves nothing.
+TEST(Flow, ARampOfNothingMovesNothing) {
+  const auto dissipated = [](const std::string& more) {
+    double sum = 0.0;
+    for (const double joules : settled(dam("") + more).sim.accounts.damping_work.joules)
+      sum += joules;
+    return sum;
+  };
+  const double at_first = dissipated("");
+  EXPECT_GT(at_first, 100.0);
+  const std::string ramp = "[[stage]]\nratio = 1e-8\nramp = { strength = [1, 1.01], steps = 3 }\n";
+  EXPECT_NEAR(dissipated(ramp), at_first, 1e-6 * at_first);
+}
+
 /// Columns of 0.5 m side by side on a joint that drains to the left, loaded by 10 kPa more. They
 /// neither hold each other nor bend.
 std::string columns(const std::string& flow, const std::string& time) {

@@ -13,6 +13,8 @@
 #include <utility>
 #include <vector>
 
+#include "zones/lining_pieces.hpp"
+
 namespace edda::beam_test {
 namespace {
 
@@ -438,6 +440,24 @@ TEST(Beam, OnlyTheEndThatYieldsSoftens) {
   EXPECT_LE(std::abs(state.forces.moment[1]), 0.25 * whole * (1.0 + 1e-6));
   EXPECT_EQ(state.yielded[0], 0.0);
   EXPECT_GT(std::abs(state.forces.moment[0]), 0.0);
+}
+
+/// Young concrete that has cracked has no more strength than before.
+TEST(LiningStrength, NeverGrowsByYielding) {
+  Model model;
+  Lining lining;
+  lining.thickness = 0.2;
+  lining.residual = LiningResidual{4e6, 1e6};
+  Material young, old;
+  young.strength = RockStrength{2e6, 1.5e6};
+  old.strength = RockStrength{20e6, 3e6};
+  const auto thrust = [&](const Material& m, bool residual) {
+    return outline_of(strength_of(model, lining, m, residual)).front().x;
+  };
+  EXPECT_DOUBLE_EQ(thrust(young, false), -2e6 * 0.2);
+  EXPECT_DOUBLE_EQ(thrust(young, true), -2e6 * 0.2);
+  EXPECT_DOUBLE_EQ(thrust(old, true), -4e6 * 0.2);
+  EXPECT_DOUBLE_EQ(outline_of(strength_of(model, lining, young, true)).back().x, 1e6 * 0.2);
 }
 
 }  // namespace
