@@ -253,7 +253,8 @@ ColumnNodes nodes_of(const FreeFieldColumn& c, const FreeFieldDrive& drive) {
   return n;
 }
 
-/// The column a step later. Its bottom is damped by its dashpot alone, or moves with the ground.
+/// The column a step later. Its bottom moves with the ground, or has no local damping: a
+/// dashpot takes what goes down.
 void advance(const FreeFieldColumn& c, const FreeFieldDrive& drive, double h, double h_new,
              FreeFieldColumn& to) {
   const ColumnNodes n = nodes_of(c, drive);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <span>
 
@@ -213,20 +214,45 @@ class Flow {
       const Water& water = s_.model.waters[static_cast<std::size_t>(head.water)];
       take(given, head.water, level_of(water, s_.blocks.origin, node.place.x), node);
     }
-    for_injections([&](Id n, Index, double rate) { given_[n].source += rate; });
+    find_injections();
+    for_injections([&](Id n, Index, double rate) {
+      if (n != no_id) given_[n].source += rate;
+    });
     for (std::size_t q = 0; q < s_.model.waters.size(); ++q) {
       if (s_.model.waters[q].rain) let_rain(static_cast<Index>(q));
     }
   }
 
-  /// Calls f(node, water, m2/s) for the injections that act and do not lead into the open.
+  /// The crossings inside the rock that are nearest, as drawn, to where waters are injected.
+  void find_injections() {
+    const BlockSet& b = s_.blocks;
+    joints_.injected.assign(s_.model.waters.size(), no_id);
+    for (std::size_t q = 0; q < joints_.injected.size(); ++q) {
+      const Water& water = s_.model.waters[q];
+      if (!water.injection) continue;
+      double nearest = std::numeric_limits<double>::infinity();
+      for (Id v = 0; v < net_.node_of.size(); ++v) {
+        const Id n = net_.node_of[v];
+        const double far = norm(b.vertex(v) + b.origin - *water.at);
+        if (n == no_id || !(net_.nodes[n].conductance > 0.0) || given_[n].kind != Kind::inside ||
+            !(far < nearest))
+          continue;
+        nearest = far;
+        joints_.injected[q] = v;
+      }
+    }
+  }
+
+  /// Calls f(node or no_id, water, m2/s) for the injections that act.
   template <class F>
   void for_injections(const F& f) {
-    for (const FlowGround::Injection& injection : joints_.ground.injections) {
-      const Id n = net_.node_of[injection.corner];
-      const Water& water = s_.model.waters[static_cast<std::size_t>(injection.water)];
-      if (n == no_id || given_[n].kind != Kind::inside) continue;
-      f(n, injection.water, rate_of(*water.injection, injection.water));
+    for (std::size_t q = 0; q < joints_.injected.size(); ++q) {
+      const Water& water = s_.model.waters[q];
+      if (!water.injection) continue;
+      const Id corner = joints_.injected[q];
+      const double rate = rate_of(*water.injection, static_cast<Index>(q));
+      if (rate > 0.0)
+        f(corner == no_id ? no_id : net_.node_of[corner], static_cast<Index>(q), rate);
     }
   }
 
@@ -278,9 +304,10 @@ class Flow {
           out_of[n];
     }
     for_injections([&](Id n, Index water, double rate) {
-      const double part = out_of[n] / given_[n].source;  // 0 where no water can leave
-      if (rate > 0.0)
-        joints_.inflow[static_cast<std::size_t>(water)] += (timed_ ? 1.0 : part) * rate;
+      // Of steady flow none goes in where none can leave.
+      const double part = n == no_id ? 0.0 : timed_ ? 1.0 : out_of[n] / given_[n].source;
+      joints_.inflow[static_cast<std::size_t>(water)] += part * rate;
+      if (!(part > 0.0)) ++joints_.not_taken;
     });
   }
 

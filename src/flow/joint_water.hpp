@@ -32,6 +32,9 @@ struct JointWater {
   std::vector<FlowRow> rows;             ///< of the faces with water, by edge and facing
   std::vector<double> inflow;   ///< [rows of Model::waters, and the open air] m2/s into the joints
   std::uint64_t not_found = 0;  ///< times that the free surface has not been found
+  std::uint64_t not_taken = 0;  ///< times that no joint took what a water injects
+  std::vector<Id> injected;  ///< [rows of Model::waters] a corner at the crossing into which one is
+                             ///< injected as the joints are; no_id: none
   std::vector<std::size_t> heads;      ///< [rows of Model::waters] nodes on their lines at present
   std::vector<WaterContent> contents;  ///< by face
   std::vector<WetEdge> before;  ///< water in joints before what changes gradually began to change

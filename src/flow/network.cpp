@@ -483,26 +483,6 @@ FlowNetwork flow_network(const FlowScene& scene, const FlowGround& ground) {
   return Builder(scene, ground).build();
 }
 
-void note_injections(const FlowScene& scene, FlowGround& ground) {
-  const BlockSet& b = scene.blocks;
-  const std::vector<Water>& waters = scene.model.waters;
-  if (std::none_of(waters.begin(), waters.end(), [](const Water& w) { return w.injection; }))
-    return;
-  const FlowNetwork net = flow_network(scene, ground);
-  for (std::size_t q = 0; q < waters.size(); ++q) {
-    const Water& water = waters[q];
-    if (!water.injection) continue;
-    Id nearest = no_id;
-    const auto far = [&](Id v) { return norm(b.vertex(v) + b.origin - *water.at); };
-    for (Id v = 0; v < b.vertex_count(); ++v) {
-      const Id n = net.node_of[v];
-      if (n == no_id || !(net.nodes[n].conductance > 0.0)) continue;
-      if (nearest == no_id || far(v) < far(nearest)) nearest = v;
-    }
-    if (nearest != no_id) ground.injections.push_back({nearest, static_cast<Index>(q)});
-  }
-}
-
 void note_open_edges(const FlowScene& scene, FlowGround& ground) {
   for (const Id edge : Builder(scene, ground, false).uncovered()) ground.open[edge] = 1;
 }

@@ -22,12 +22,6 @@ struct FlowGround {
     Index water;
   };
   std::vector<HeadLine> heads;
-  /// A corner at the crossing of joints into which a water is injected.
-  struct Injection {
-    Id corner;
-    Index water;
-  };
-  std::vector<Injection> injections;
   std::vector<std::vector<Id>> along;  ///< [rows of Model::boundaries] edges on those that go on
                                        ///< as rock: all but tractions of their own
   std::vector<std::uint8_t> open;      ///< [nv] 1: no block is beside the edge, or beside a part
@@ -130,9 +124,6 @@ struct FlowScene {
 FlowNetwork flow_network(const FlowScene& scene, const FlowGround& ground);
 /// Marks in `ground` the edges of free blocks beside which no block is now, boundaries or not.
 void note_open_edges(const FlowScene& scene, FlowGround& ground);
-/// Notes in `ground` which crossings are nearest to the injections, as drawn; none where no joint
-/// conducts water.
-void note_injections(const FlowScene& scene, FlowGround& ground);
 
 /// Discharge over the difference of pressures of a joint between parallel plates whose aperture is
 /// linear between its ends (m), of unit thickness, m2/s per Pa:

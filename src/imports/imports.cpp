@@ -44,7 +44,7 @@ Result<Drawing> read_drawing(const Import& import) {
 class Layers {
  public:
   Layers(const Model& model, const Import& import) : import_(import) {
-    for (std::size_t i = 0; i < model.joints.size(); ++i) {
+    for (std::size_t i = 0; i < model.given_joints().size(); ++i) {
       joints_[model.joints[i].name] = static_cast<Index>(i);
     }
     for (const auto& [name, joint] : import.layers) named_[name] = joint;

@@ -153,7 +153,7 @@ void Simulation::set_strength_factor(const std::string& joint, double factor) {
   check_number("set_strength_factor", "factor", factor, smallest_factor);
   edda::Simulation& sim = impl_->sim();
   std::vector<std::string_view> known;
-  add_names(sim.scene->model.joints, known);
+  add_names(sim.scene->model.given_joints(), known);
   check_known("set_strength_factor", joint, "joint", known);
   impl_->begin_change("set_strength_factor");
   end_hold(sim);

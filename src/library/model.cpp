@@ -120,7 +120,7 @@ std::vector<std::string> Model::materials() const {
 }
 
 std::vector<std::string> Model::joints() const {
-  return names_of(impl_->model.joints);
+  return names_of(impl_->model.given_joints());
 }
 
 std::vector<std::string> Model::openings() const {

@@ -2,10 +2,12 @@
 // by name is already an index, every default filled in, every range checked. Built by read_model().
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <numbers>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -117,7 +119,6 @@ struct LawDashpots {
   double rebound = 0.0;  ///< of dashpots in proportion to the pressure; 0: they are linear
 };
 
-/// The contact law of a joint (theory, section 5).
 /// How joints of one law have come to have another, where they do not have it as it is given: they
 /// change gradually, or it decays from then on. Not a key: found from the changes of stages.
 struct LawChange {
@@ -127,6 +128,7 @@ struct LawChange {
   double over = 0.0;      ///< s, of that stage; 0: by its ramp
 };
 
+/// The contact law of a joint (theory, section 5).
 struct JointLaw {
   std::string name;
   LawType type = LawType::coulomb;
@@ -336,13 +338,13 @@ struct BoltPattern {
   Where where;
 };
 
-/// [[lining]]: shotcrete, concrete or steel sets, a chain of beams along a line. Per metre of
-/// thickness of the model, but area and inertia, which are those of one steel set.
 /// Strengths of a section of a lining once it has yielded; empty: as before.
 struct LiningResidual {
   std::optional<double> compressive_strength{}, tensile_strength{};  ///< Pa
 };
 
+/// [[lining]]: shotcrete, concrete or steel sets, a chain of beams along a line. Per metre of
+/// thickness of the model, but area and inertia, which are those of one steel set.
 struct Lining {
   std::string name;
   std::string opening;                         ///< on whose outline it is, or
@@ -457,6 +459,12 @@ struct Model {
 
   KeyPlaces key_places;  ///< places of the given keys; empty for a model that was not read
   std::vector<std::string> warnings;  ///< of reading: old names
+
+  /// The laws of joints but those that stages add.
+  std::span<const JointLaw> given_joints() const {
+    return {joints.begin(), std::find_if(joints.begin(), joints.end(),
+                                         [](const JointLaw& law) { return law.change; })};
+  }
 };
 
 }  // namespace edda

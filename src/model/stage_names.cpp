@@ -87,6 +87,16 @@ bool acts_at_first(const Model& model, const std::string& name) {
   return true;
 }
 
+std::vector<bool> acts_in_stages(const Model& model, const std::string& name) {
+  bool acts = acts_at_first(model, name);
+  std::vector<bool> in;
+  for (const Stage& stage : stages_of(model)) {
+    acts = holds(stage.activate, name) || (acts && !holds(stage.deactivate, name));
+    in.push_back(acts);
+  }
+  return in;
+}
+
 bool flow_takes_time(const Model& model) {
   return std::any_of(model.stages.begin(), model.stages.end(), [](const Stage& stage) {
     return stage.ramp && stage.ramp->varied == Varied::flow;

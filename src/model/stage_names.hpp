@@ -33,6 +33,9 @@ std::vector<Index> linings_called(const Model& model, const std::vector<std::str
 /// the first activates it before any deactivates it. An element without a name does.
 bool acts_at_first(const Model& model, const std::string& name);
 
+/// [stages_of()] Whether the element of this name acts.
+std::vector<bool> acts_in_stages(const Model& model, const std::string& name);
+
 /// Whether bolts or linings of this name are there from the start of the run, which holds unless a
 /// stage installs them.
 bool installed_at_first(const Model& model, const std::string& name);

@@ -82,13 +82,10 @@ std::string flow_line(const Simulation& sim) {
 std::string injection_line(const Simulation& sim, std::size_t q) {
   const Water& water = sim.scene->model.waters[q];
   const BlockSet& b = sim.scene->blocks;
-  std::string where = "where no joint conducts water";
-  for (const FlowGround::Injection& into : sim.attached.joint_water.ground.injections) {
-    if (static_cast<std::size_t>(into.water) != q) continue;
-    const Vec2 at = b.vertex(into.corner) + b.origin;
-    where = fmt::format("at ({:.4g}, {:.4g})", at.x, at.y);
-  }
-  return fmt::format("{}: injects {:.4g} m2/s into the joints {}{}",
+  std::string where = ", none of which conducts water inside the rock at the start";
+  if (const Id corner = sim.attached.joint_water.injected[q]; corner != no_id)
+    where = " at " + place_label(b.vertex(corner) + b.origin);
+  return fmt::format("{}: injects {:.4g} m2/s into the joints{}{}",
                      row_label("water", water.name, q), *water.injection, where,
                      range_of(water.rise, "times", ""));
 }

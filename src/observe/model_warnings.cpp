@@ -287,7 +287,7 @@ void warn_of_overlaps(const Simulation& sim, std::vector<std::string>& warnings)
 void warn_of_stiff_restitution(const Simulation& sim, std::vector<std::string>& warnings) {
   constexpr double stiff_impact = 0.1;
   const BlockSet& b = sim.scene->blocks;
-  for (const JointLaw& law : sim.scene->model.joints) {
+  for (const JointLaw& law : sim.scene->model.given_joints()) {
     if (!law.restitution || law.restitution->housner || !law.kn || law.restitution->part == 1.0)
       continue;
     double most = 0.0;
@@ -311,19 +311,24 @@ void warn_of_stiff_restitution(const Simulation& sim, std::vector<std::string>& 
 void warn_of_strain_damping(const Simulation& sim, std::vector<std::string>& warnings) {
   constexpr double much = 0.05;
   for (const StrainDampingAt& at : strain_damping_at(sim)) {
+    const std::string block = block_label(sim.scene->blocks, at.block);
     if (at.lost > much) {
       warnings.push_back(fmt::format(
           "about {:.0f} % of the motion that {} ({:.3g} Hz) sends over {:.3g} m through the blocks "
-          "is lost to their strain damping (up to {:.2g} of critical at this frequency, in {}): "
-          "multiply the damping of the materials by {:.1g}, or give 0 where nothing slides, or "
-          "smaller blocks",
-          100.0 * at.lost, at.of, at.frequency, at.length, at.fraction,
-          block_label(sim.scene->blocks, at.block), 0.02 / at.lost));
+          "is lost to {} {} (up to {:.2g} of critical at this frequency, in {}): {}",
+          100.0 * at.lost, at.of, at.frequency, at.length, at.rayleigh ? "the" : "their", at.what(),
+          at.fraction, block,
+          at.rayleigh
+              ? fmt::format("give {} a lower fraction or a higher frequency", at.key)
+              : fmt::format("multiply the damping of the materials by {:.1g}, or give 0 where "
+                            "nothing slides, or smaller blocks",
+                            0.02 / at.lost)));
     } else if (at.length == 0.0 && at.fraction > much) {
-      warnings.push_back(
-          fmt::format("the strain damping is up to {:.2g} of critical at {:.3g} Hz, the frequency "
-                      "of {} ({}): give a lower damping of the material, or smaller blocks",
-                      at.fraction, at.frequency, at.of, block_label(sim.scene->blocks, at.block)));
+      warnings.push_back(fmt::format(
+          "the {} is up to {:.2g} of critical at {:.3g} Hz, the frequency of {} ({}): {}",
+          at.what(), at.fraction, at.frequency, at.of, block,
+          at.rayleigh ? fmt::format("give {} a lower fraction or a higher frequency", at.key)
+                      : std::string("give a lower damping of the material, or smaller blocks")));
     }
   }
 }

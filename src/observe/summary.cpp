@@ -24,6 +24,7 @@ namespace {
 constexpr std::string_view fall_check = "number of blocks that fell freely under local damping";
 constexpr std::string_view loose_check = "number of blocks that have come loose";
 constexpr std::string_view aside_check = "number of blocks that were set aside";
+constexpr std::string_view injection_check = "times that no joint took the water of an injection";
 constexpr std::string_view stage_check = "number of stages that found no equilibrium";
 constexpr std::string_view broken_check = "number of joints that broke where gravity acted at once";
 constexpr std::string_view overlap_check = "largest overlap over half width of a block";
@@ -161,8 +162,13 @@ static void add_rigid_check(const Outcome& o, std::vector<Check>& checks) {
 
 static void add_flow_check(const Simulation& sim, std::vector<Check>& checks) {
   if (!sim.scene->model.flow) return;
+  const JointWater& water = sim.attached.joint_water;
   checks.push_back(limited("times that the free surface of the flow was not found",
-                           static_cast<double>(sim.attached.joint_water.not_found), 0.0));
+                           static_cast<double>(water.not_found), 0.0));
+  const auto& waters = sim.scene->model.waters;
+  if (std::any_of(waters.begin(), waters.end(), [](const Water& w) { return w.injection; }))
+    checks.push_back(
+        limited(std::string(injection_check), static_cast<double>(water.not_taken), 0.0));
 }
 
 std::vector<Check> checks_of(const Simulation& sim, const Outcome& o) {
@@ -226,6 +232,14 @@ std::vector<Check> checks_of(const Simulation& sim, const Outcome& o) {
   return checks;
 }
 
+/// Whether the block has no strain damping, and could have: it is not meshed.
+static bool is_undamped(const Simulation& sim, Id block) {
+  const BlockSet& b = sim.scene->blocks;
+  const std::vector<double>& viscosity = sim.motion.masses.viscosity;
+  return b.fixed[block] == 0 && !b.is_meshed(block) &&
+         (viscosity.empty() || viscosity[block] == 0.0);
+}
+
 static std::string chatter_text(const Check& check, const Simulation& sim, const Chatter& chatter) {
   std::string text =
       fmt::format("contacts are chattering ({:.0f} openings and closings, limit {:.0f})",
@@ -236,7 +250,7 @@ static std::string chatter_text(const Check& check, const Simulation& sim, const
                     "solver.damping.contact = 0.1",
                     block_label(sim.scene->blocks, chatter.block_i),
                     block_label(sim.scene->blocks, chatter.block_j), chatter.time,
-                    sim.motion.masses.viscosity.empty()
+                    is_undamped(sim, chatter.block_i) || is_undamped(sim, chatter.block_j)
                         ? "give the rock its damping (materials.NAME.damping = 0.5), or "
                         : "");
 }
@@ -280,6 +294,11 @@ std::string message_of(const Check& check, const Simulation& sim, const Outcome&
         ": forces reach up to about twice their values in equilibrium then, so that joints may "
         "break "
         "which would hold; begin with a [[stage]] with until = \"equilibrium\"";
+  }
+  if (check.name == injection_check) {
+    text +=
+        ": none conducts water inside the rock, or the flow is steady and the water can leave "
+        "nowhere; check apertures and sides, or let the flow take its time by a ramp of flow";
   }
   if (check.name == fall_check) {
     text +=

@@ -9,6 +9,7 @@
 #include "model/files/accelerogram.hpp"
 #include "model/stage_names.hpp"
 #include "observe/resting.hpp"
+#include "step/labels.hpp"
 
 namespace edda {
 namespace {
@@ -84,6 +85,21 @@ void warn_of_bolts_in_one_block(const Simulation& sim, std::vector<std::string>&
                                  idle.size() == 1 ? "it holds" : "they hold"));
 }
 
+/// Joints that lose strength with time in a model in which none passes for them.
+void warn_of_no_time(const Model& model, std::vector<std::string>& warnings) {
+  for (const Stage& stage : stages_of(model)) {
+    if (stage.ramp && stage.ramp->varied == Varied::time) return;
+    if (!stage.to_equilibrium() && stage.duration > 0.0) return;
+  }
+  for (const JointLaw& law : model.given_joints()) {
+    if (!law.decay_time) continue;
+    warnings.push_back(fmt::format(
+        "{}.decay_time has no effect: no time passes for joints in stages until equilibrium; give "
+        "a stage ramp = {{ time = [\"0 d\", \"100 d\"] }}, or a duration with until = \"time\"",
+        law.where.key));
+  }
+}
+
 /// Water whose table lies below all faces of free blocks, as these are drawn, and never rises.
 void warn_of_dry_waters(const Simulation& sim, std::vector<std::string>& warnings) {
   const Model& model = sim.scene->model;
@@ -118,28 +134,25 @@ void warn_of_idle_flow(const Simulation& sim, std::vector<std::string>& warnings
     warnings.push_back("flow: no joint conducts water at the start; check the apertures");
     return;
   }
+  const BlockSet& b = sim.scene->blocks;
   for (std::size_t q = 0; q < model.waters.size(); ++q) {
     const Water& water = model.waters[q];
+    if (const Id corner = joints.injected[q]; corner != no_id) {
+      const Vec2 into = b.vertex(corner) + b.origin;
+      const double far = norm(into - *water.at);
+      if (far > 2.0 * b.radius[b.vertex_block[corner]])
+        warnings.push_back(
+            fmt::format("{}.at: the water goes into the joints {:.3g} m from there, at {}, the "
+                        "nearest crossing "
+                        "inside the rock: give a point near joints that conduct water",
+                        water.where.key, far, place_label(into)));
+    }
     const bool in_rock = !water.sides.empty() || !water.along.empty();
     if (!in_rock || joints.heads[q] > 0 || !sim.attached.loads.intervals.waters[q].acts()) continue;
     warnings.push_back(fmt::format(
         "{}: its line in the rock meets no joint that conducts water: it has no effect there",
         water.where.key));
   }
-}
-
-/// [stages] Whether the element of this name acts.
-std::vector<bool> acts_in_stages(const Model& model, const std::string& name) {
-  const auto names = [&](const std::vector<std::string>& list) {
-    return !name.empty() && std::find(list.begin(), list.end(), name) != list.end();
-  };
-  bool acts = acts_at_first(model, name);
-  std::vector<bool> in;
-  for (const Stage& stage : stages_of(model)) {
-    acts = names(stage.activate) || (acts && !names(stage.deactivate));
-    in.push_back(acts);
-  }
-  return in;
 }
 
 /// A symmetric matrix: the force of what moves with the ground per displacement, or velocity.
@@ -257,6 +270,7 @@ std::vector<std::string> unused_names(const Simulation& sim) {
   warn_of_idle(sim.scene->model.materials, used_materials(sim), "material",
                "no block is made of it", warnings);
   warn_of_bolts_in_one_block(sim, warnings);
+  warn_of_no_time(sim.scene->model, warnings);
   warn_of_dry_waters(sim, warnings);
   warn_of_idle_flow(sim, warnings);
   warn_of_idle_shakings(sim, warnings);

@@ -72,9 +72,8 @@ PathEnd end_of(const Simulation& sim, const Piece& last, Vec2 along, Vec2 motion
 }
 
 /// Adds a block to the path; joint: the compliance of the joint before it.
-void add_block(const Simulation& sim, const Piece& piece, double joint, bool along_motion,
-               Index& material, double& compliance, WavePath& path) {
-  const BlockSet& b = sim.scene->blocks;
+void add_block(const BlockSet& b, const Masses& masses, const Piece& piece, double joint,
+               bool along_motion, Index& material, double& compliance, WavePath& path) {
   const Id i = piece.block;
   const double length = piece.to - piece.from, of_rock = length / modulus_of(b, i, along_motion);
   if (path.layers.empty() || b.material[i] != material) {
@@ -84,7 +83,7 @@ void add_block(const Simulation& sim, const Piece& piece, double joint, bool alo
     material = b.material[i];
   }
   WaveLayer& layer = path.layers.back();
-  const double eta = sim.motion.masses.viscosity.empty() ? 0.0 : sim.motion.masses.viscosity[i];
+  const double eta = masses.viscosity.empty() ? 0.0 : masses.viscosity[i];
   const double before = compliance;
   compliance += of_rock + joint;
   layer.viscosity = (before * layer.viscosity + of_rock * eta) / compliance;
@@ -110,7 +109,8 @@ double WavePath::travel_time() const {
   return sum;
 }
 
-WavePath wave_path(const Simulation& sim, Vec2 from, Vec2 along, Vec2 motion) {
+WavePath wave_path(const Simulation& sim, const Masses& masses, Vec2 from, Vec2 along,
+                   Vec2 motion) {
   const BlockSet& b = sim.scene->blocks;
   const bool along_motion = std::abs(dot(along, motion)) > std::sqrt(0.5);
   constexpr double gap = 1e-2;  // of the block: a void
@@ -127,7 +127,7 @@ WavePath wave_path(const Simulation& sim, Vec2 from, Vec2 along, Vec2 motion) {
     }
     if (begun && piece.from - last.to > gap * std::sqrt(b.area[piece.block])) break;
     if (piece.to <= last.to && begun) continue;
-    add_block(sim, piece,
+    add_block(b, masses, piece,
               begun ? joint_compliance(sim, last.block, piece.block, along_motion) : 0.0,
               along_motion, material, compliance, path);
     last = piece;

@@ -28,7 +28,8 @@ struct WavePath {
 
 /// The path of a wave from `from` (local) in the direction `along` through the free blocks, up to
 /// where they end or a void or a fixed block lies; particles move in the
-/// direction `motion`, both of length 1. Empty where there is no free block.
-WavePath wave_path(const Simulation& sim, Vec2 from, Vec2 along, Vec2 motion);
+/// direction `motion`, both of length 1. Empty where there is no free block. masses: those whose
+/// viscosity damps the wave.
+WavePath wave_path(const Simulation& sim, const Masses& masses, Vec2 from, Vec2 along, Vec2 motion);
 
 }  // namespace edda

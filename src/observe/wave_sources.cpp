@@ -146,8 +146,8 @@ WaveOrigin origin_of(const Simulation& sim, std::size_t row, const Shaking& q) {
   Vec2 motion;
   WaveCurve curve = curve_of(q, motion);
   const bool enters = q.apply == ShakingKind::upgoing;
-  return {row_label("shaking", q.name, row), enters ? WaveSource::incoming : WaveSource::motion,
-          std::move(curve),
+  return {row_label("shaking", q.name, row), q.name,
+          enters ? WaveSource::incoming : WaveSource::motion, std::move(curve),
           enters ? through_dashpots(sim, q.enters, motion) : upright(sim, motion)};
 }
 
@@ -155,8 +155,8 @@ WaveOrigin origin_of(const Simulation& sim, std::size_t row, const Boundary& q) 
   const auto index = static_cast<Index>(row);
   const bool moves = q.velocity || q.displacement;
   const auto loads = static_cast<Index>(sim.scene->model.loads.size());
-  return {row_label("boundary", q.name, row), moves ? WaveSource::motion : WaveSource::force,
-          curve_of(q.factor),
+  return {row_label("boundary", q.name, row), q.name,
+          moves ? WaveSource::motion : WaveSource::force, curve_of(q.factor),
           moves ? from_boundary(sim, index, unit(q.velocity ? *q.velocity : *q.displacement))
                 : from_load(sim, loads + index)};
 }
@@ -169,7 +169,7 @@ std::vector<WaveOrigin> wave_origins(const Simulation& sim) {
   for (std::size_t q = 0; q < m.shakings.size(); ++q)
     origins.push_back(origin_of(sim, q, m.shakings[q]));
   for (std::size_t q = 0; q < m.loads.size(); ++q) {
-    origins.push_back({row_label("load", m.loads[q].name, q), WaveSource::force,
+    origins.push_back({row_label("load", m.loads[q].name, q), m.loads[q].name, WaveSource::force,
                        curve_of(m.loads[q].factor), from_load(sim, static_cast<Index>(q))});
   }
   for (std::size_t q = 0; q < m.boundaries.size(); ++q)

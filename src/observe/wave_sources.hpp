@@ -20,7 +20,8 @@ struct WaveCurve {
 };
 
 struct WaveOrigin {
-  std::string of;  ///< "shaking quake"
+  std::string of;    ///< "shaking quake"
+  std::string name;  ///< "quake"
   WaveSource source = WaveSource::motion;
   WaveCurve curve;
   std::vector<WaveRay> rays;  ///< some of them

@@ -32,6 +32,7 @@ Extent extent_of(const NmPanel& panel) {
   for (const NmPoints& at : panel.times) {
     e.grow(at.sections);
     e.grow(at.strength);
+    e.grow(at.residual);
   }
   if (e.moment == 0.0) e.moment = 1.0;
   if (!(e.most > e.least)) e.most = e.least + 1.0;
@@ -42,6 +43,44 @@ Extent extent_of(const NmPanel& panel) {
 Colour colour_of(const NmPanel& panel, std::size_t k) {
   const double last = static_cast<double>(std::max<std::size_t>(panel.times.size(), 2) - 1);
   return sequential(0.85 * static_cast<double>(k) / last);
+}
+
+/// The outlines that panels show beside the sections, thick and thin.
+struct Outline {
+  const char* name;
+  std::vector<Vec2> NmPoints::*points;
+  double width;
+};
+constexpr Outline outlines[] = {{"strength", &NmPoints::strength, rim},
+                                {"residual", &NmPoints::residual, 0.4 * rim}};
+
+/// Whether the legend has to tell the outlines apart.
+bool has_residual(const NmPanel& panel) {
+  return std::any_of(panel.times.begin(), panel.times.end(),
+                     [](const NmPoints& at) { return !at.residual.empty(); });
+}
+
+/// Beside the panel: the times, and what its outlines are.
+void draw_legend(Canvas& canvas, const Box& frame, const NmPanel& panel, double font) {
+  const double x = frame.high.x + 1.2 * font;
+  double y = frame.low.y + font;
+  const auto name = [&](const std::string& text) {
+    canvas.colour(dark);
+    canvas.text(text, {x + font, y}, {.size = font});
+    y += 1.3 * font;
+  };
+  for (std::size_t k = 0; k < panel.times.size(); ++k) {
+    canvas.colour(colour_of(panel, k));
+    cairo_arc(canvas.cr(), x, y - 0.3 * font, 2.0 * dot, 0.0, 6.3);
+    cairo_fill(canvas.cr());
+    name(panel.times[k].name);
+  }
+  if (!has_residual(panel)) return;
+  for (const Outline& outline : outlines) {
+    canvas.colour(dark);
+    canvas.line({x - 0.5 * font, y - 0.3 * font}, {x + 0.5 * font, y - 0.3 * font}, outline.width);
+    name(outline.name);
+  }
 }
 
 void draw_panel(Canvas& canvas, const Box& frame, const NmPanel& panel, double font) {
@@ -65,27 +104,18 @@ void draw_panel(Canvas& canvas, const Box& frame, const NmPanel& panel, double f
   canvas.line({frame.low.x, chart.at(0.0, 0.0).y}, {frame.high.x, chart.at(0.0, 0.0).y},
               2.0 * rule);
   for (std::size_t k = 0; k < panel.times.size(); ++k) {
-    for (const auto& [points, width] : {std::pair{&panel.times[k].strength, rim},
-                                        std::pair{&panel.times[k].residual, 0.4 * rim}}) {
-      std::vector<Vec2> round = scaled(*points);
+    for (const Outline& outline : outlines) {
+      std::vector<Vec2> round = scaled(panel.times[k].*outline.points);
       if (round.empty()) continue;
       round.push_back(round.front());
-      chart.draw_line(round, width, colour_of(panel, k));
+      chart.draw_line(round, outline.width, colour_of(panel, k));
     }
   }
   for (std::size_t k = 0; k < panel.times.size(); ++k) {
     for (const Vec2 p : scaled(panel.times[k].sections))
       chart.draw_point(p, dot, colour_of(panel, k));
   }
-  double y = frame.low.y + font;
-  for (std::size_t k = 0; k < panel.times.size(); ++k, y += 1.3 * font) {
-    canvas.colour(colour_of(panel, k));
-    const double x = frame.high.x + 1.2 * font;
-    cairo_arc(canvas.cr(), x, y - 0.3 * font, 2.0 * dot, 0.0, 6.3);
-    cairo_fill(canvas.cr());
-    canvas.colour(dark);
-    canvas.text(panel.times[k].name, {x + font, y}, {.size = font});
-  }
+  draw_legend(canvas, frame, panel, font);
   canvas.colour(dark);
   canvas.text(panel.lining, {frame.low.x, frame.low.y - 0.5 * font}, {.size = font, .bold = true});
 }
@@ -101,6 +131,9 @@ Trouble plot_nm(const NmPicture& p, const std::string& path) {
     for (const NmPanel& panel : p.panels) {
       for (const NmPoints& at : panel.times)
         names = std::max(names, measure.text_width(at.name, f));
+      if (!has_residual(panel)) continue;
+      for (const Outline& outline : outlines)
+        names = std::max(names, measure.text_width(outline.name, f));
     }
     title = wrapped(measure, p.title, 1.2 * f, p.paper.width - 2.0 * f, true);
   }

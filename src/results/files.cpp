@@ -297,7 +297,8 @@ Trouble make_folder(const std::string& folder) {
 
 Trouble forget_end(const std::string& folder, std::size_t frames) {
   std::error_code error;
-  for (const char* name : {"summary.json", "blocks.csv", "joints.csv", "bolt_summary.csv"}) {
+  for (const char* name :
+       {"summary.json", "blocks.csv", "joints.csv", "bolt_summary.csv", "curve.csv"}) {
     fs::remove(fs::path(folder) / name, error);
   }
   const Content content = content_of(folder);

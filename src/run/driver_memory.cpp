@@ -373,10 +373,12 @@ Trouble Driver::restore(const Record& record) {
     flaw = "driver.angle has another size than the model asks for";
   }
   const bool goes_on = stage_has_ended_ && stage_ + 1 < plans_.size();
-  if (flaw.empty() && !goes_on && sim_.motion.state.time >= sim_.scene->model.solver.duration) {
+  const Model& given = sim_.scene->model;
+  const double end = given.stages.empty() ? given.solver.duration : latest_end();
+  if (flaw.empty() && !goes_on && sim_.motion.state.time >= end) {
     return refused(folder,
                    fmt::format("its checkpoint is at {:.6g} s, the duration is {:.6g} s",
-                               sim_.motion.state.time, sim_.scene->model.solver.duration),
+                               sim_.motion.state.time, end),
                    "give a longer solver.duration");
   }
   if (!flaw.empty()) {
@@ -388,7 +390,7 @@ Trouble Driver::restore(const Record& record) {
   resumed_ = true;
   if (stage_has_ended_) times_.go_on_after(sim_.motion.state.time);
   // Where the duration has changed, the next event has, too.
-  if (!stage_has_ended_ && (event_.end || event_.time > sim_.scene->model.solver.duration)) {
+  if (!stage_has_ended_ && (event_.end || event_.time > end)) {
     times_.put_back(event_);
     const Event next = times_.next();
     if (next.time != event_.time) fit_step_to(sim_, next.time);

@@ -50,6 +50,7 @@ void list_flow(Archive& a, Simulation& s) {
   a("flow.filled", water.filled);
   a("flow.inflow", water.inflow);
   a("flow.not_found", water.not_found);
+  a("flow.not_taken", water.not_taken);
   list_member(a, "flow.rows.edge", water.rows, &FlowRow::edge);
   list_member(a, "flow.rows.facing", water.rows, &FlowRow::facing);
   list_member(a, "flow.rows.aperture", water.rows, &FlowRow::aperture);

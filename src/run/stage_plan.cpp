@@ -107,6 +107,20 @@ Fault rock_of(const Model& model, const PropertyChange& change) {
       "give the lining a material of its own"};
 }
 
+/// A change that a stage before has made in part is not made again for the rest.
+std::string remedy_of_idle(const Model& model, std::size_t stage, const PropertyChange& change) {
+  for (std::size_t q = 0; q < stage && change.joints != none; ++q) {
+    for (const PropertyChange& before : model.stages[q].change) {
+      if (before.joints != change.joints || before.row != change.row) continue;
+      return fmt::format(
+          "they are of \"{0}\" since {1}, in whole or in part: to take them further change \"{0}\" "
+          "to another law that has the numbers of the end",
+          change.to, stage_label(model, q));
+    }
+  }
+  return "check its name, set, region and distance, and the changes before it";
+}
+
 }  // namespace
 
 Faults idle_changes(const Scene& scene) {
@@ -129,7 +143,7 @@ Faults idle_changes(const Scene& scene) {
                        joints ? "are no joints of law" : "is no rock and no lining of material",
                        joints ? model.joints[row].name : model.materials[row].name,
                        change.set.empty() ? "" : " in set \"" + change.set + '"'),
-           "check its name, set, region and distance, and the changes before it"});
+           remedy_of_idle(model, q, change)});
     }
   }
   return faults;

@@ -28,7 +28,6 @@ void start_flow(Simulation& sim) {
   for (std::size_t k = 0; k < faces.size(); ++k)
     decide_activity(faces, sim.scene->blocks, sim.motion.pose, {false, false}, k);
   note_open_edges(flow_scene(sim), sim.attached.joint_water.ground);
-  note_injections(flow_scene(sim), sim.attached.joint_water.ground);
   update_flow(sim);
 }
 

@@ -71,6 +71,13 @@ class Pictures(RampProgram):
         picture = (self.dir / "nm.svg").read_text(encoding="utf-8")
         for text in ("soft", "hard", "thrust (MN)", "shell"):
             self.assertIn(f">{text}</text>", picture)
+        self.assertNotIn(">residual</text>", picture)
+        text = (self.dir / "r.toml").read_text(encoding="utf-8").replace("name = 'shell'", "name = 'shell'\nresidual = { tensile_strength = 0 }")
+        (self.dir / "weak.toml").write_text(text, encoding="utf-8")
+        self.expect(0, "run", "weak.toml", "--quiet")
+        self.expect(0, "plot", "weak", "--nm", "-o", "weak.svg")
+        for text in ("strength", "residual"):
+            self.assertIn(f">{text}</text>", (self.dir / "weak.svg").read_text(encoding="utf-8"))
         self.expect(0, "plot", "r", "--nm", "--time", "0.05", "-o", "t.csv")
         self.assertEqual({r["at"] for r in read_rows(self.dir / "t.csv")}, {"t = 0.05 s"})
         rows = read_rows(self.dir / "r/linings.csv")

@@ -75,6 +75,18 @@ TEST(Imports, TracesCutTheDomainWithTheirLaws) {
       << result.value().report.notes[0];
 }
 
+/// Laws that stages add do not take the layers of those that the model gives.
+TEST(Imports, LayersAreLawsOfTheModel) {
+  const File file("t.csv", "-1,5,11,5,smooth\n");
+  Model model = with_joints(domain_model(box(0, 0, 10, 10), 1e-8));
+  model.joints.push_back(model.joints[2]);
+  model.joints.back().change = {0, 2, 0, 0.0};
+  model.imports.push_back(import_of(file));
+  const auto result = build_polygons(model);
+  ASSERT_TRUE(result.ok());
+  EXPECT_NEAR(length_by_law(result.value().blocks)[2], 20.0, 1e-9);
+}
+
 TEST(Imports, UnitsScaleAndShiftPlaceTheLines) {
   const File file("t.csv", "0,0,1000,0\n");
   Model model = with_joints(domain_model(box(0, 0, 10, 10), 1e-8));

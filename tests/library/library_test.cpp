@@ -36,6 +36,17 @@ TEST_F(Library, OverridesCountAndModelsReadBack) {
   EXPECT_EQ(Model::parse(model.to_toml()).to_toml(), model.to_toml());
 }
 
+/// Laws on the way from one to another are not among them.
+TEST_F(Library, JointsAreThoseThatTheModelGives) {
+  std::string text = falling;
+  text.erase(text.find("duration = 0.2\n"), 15);
+  const Model model = Model::parse(
+      text +
+      "[joints.k]\nfriction_angle = 20\n[[stage]]\nchange = [{ joints = 'j', to = 'k' }]\n"
+      "ramp = { change = [0, 1] }\n");
+  EXPECT_EQ(model.joints(), (std::vector<std::string>{"j", "k"}));
+}
+
 TEST_F(Library, CutGivesPolygonsWithAJointPerEdge) {
   const Cut cut = api::cut(Model::read(examples + "cavern.toml"));
   ASSERT_GT(cut.blocks.size(), 100u);

@@ -17,6 +17,10 @@ struct Bad {
   std::string key, fragment;
 };
 
+const std::string clay =
+    "[joints.clay]\nfriction_angle = 20\nresidual = { friction_angle = 10 }\ndecay_time = \"3 "
+    "d\"\n";
+
 TEST(BadModel, ChangesThatTakeTime) {
   const std::string worn = "[materials.worn]\ndensity = 2700\nyoung = 20e9\npoisson = 0.25\n",
                     weak = "[joints.weak]\nfriction_angle = 20\n",
@@ -45,6 +49,12 @@ TEST(BadModel, ChangesThatTakeTime) {
                45, "stage.0.ramp.change", "to a larger one"},
            Bad{"[[stage]]\nramp = { time = [0, 2] }\n", 43, "stage.0.ramp.time",
                "no joint loses strength"},
+           Bad{clay + "[[stage]]\nramp = { time = [\"1 h\", \"2 h\"] }\n", 47, "stage.0.ramp.time",
+               "begin with \"0 s\""},
+           Bad{clay + "[[stage]]\nramp = { time = [0, \"1 h\"] }\n[[stage]]\nduration = 2.5\n" +
+                   "[[stage]]\nuntil = \"equilibrium\"\n" +
+                   "[[stage]]\nramp = { time = [\"1 h\", \"2 h\"] }\n",
+               53, "stage.3.ramp.time", "begin with \"3602.5 s\""},
            Bad{"[joints.clay]\nfriction_angle = 20\ndecay_time = \"3 d\"\n", 44,
                "joints.clay.decay_time", "which is the residual one"},
        }) {
@@ -58,6 +68,21 @@ TEST(BadModel, ChangesThatTakeTime) {
     ASSERT_NE(f, faults.end()) << bad.text << testing::as_lines(faults);
     EXPECT_EQ(f->where.line, bad.line - 1) << to_string(*f);
     EXPECT_NE(to_string(*f).find(bad.fragment), std::string::npos) << to_string(*f);
+  }
+}
+
+/// Joints that have no peak strength to lose get one message.
+TEST(BadModel, JointsThatCannotDecay) {
+  for (const char* type :
+       {"type = \"glued\"\n",
+        "type = \"barton-bandis\"\njrc = 10\njcs = 1e8\nresidual_angle = 30\n"}) {
+    const Result<Model> result = read_model_text(
+        testing::base_model + "[joints.clay]\n" + type + "decay_time = 3\n", "m.toml", {});
+    ASSERT_FALSE(result.ok());
+    EXPECT_EQ(std::count_if(result.faults().begin(), result.faults().end(),
+                            [](const Fault& f) { return f.where.key == "joints.clay.decay_time"; }),
+              1)
+        << testing::as_lines(result.faults());
   }
 }
 

@@ -134,6 +134,15 @@ TEST(BadModel, Flow) {
            {aperture,
             {flow + second + "injection = 1e-4\nat = [1, 2]\nrain = 1e-6\n", 49, "water.1.rain",
              "injection is given too"}},
+           {aperture,
+            {flow + second +
+                 "injection = 1e-4\nat = [1, 2]\nhistory = \"" EDDA_SOURCE_DIR
+                 "/tests/model/out_and_in.csv\"\n",
+             49, "water.1.history", "has the factor -0.5, below 0"}},
+           {aperture,
+            {flow + second +
+                 "rain = 1e-6\nhistory = \"" EDDA_SOURCE_DIR "/tests/model/out_and_in.csv\"\n",
+             48, "water.1.history", "has the factor -0.5, below 0"}},
            {aperture, {flow + second + "rain = 0\n", 47, "water.1.rain", "out of range"}},
            {aperture,
             {second + "rain = '5 mm/h'\n", 44, "water.0.rain", "through joints: add [flow]"}},
@@ -249,6 +258,8 @@ TEST(BadModel, Linings) {
                "lining.0.plastic_moment", "of steel sets"},
            Bad{thick + "residual = { tensile_strength = 1e5 }\n", 45, "lining.0.residual",
                "belongs to a compressive_strength"},
+           Bad{thick + "compressive_strength = 2e7\nresidual = {}\n", 46, "lining.0.residual",
+               "gives no strength: give compressive_strength"},
            Bad{thick + "compressive_strength = 2e7\nresidual = { compressive_strength = 3e7 }\n",
                46, "lining.0.residual.compressive_strength",
                "is more than before the section yields"},

@@ -1,6 +1,7 @@
 // What the damping of strain takes at the frequencies of a model.
 #include "observe/damping_report.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -92,6 +93,40 @@ TEST(DampingReport, MuchOfItIsWarnedOf) {
   };
   EXPECT_FALSE(warned("3"));
   EXPECT_TRUE(warned("20"));
+}
+
+/// Rayleigh damping goes by its own name and key, that of the stage in which the ground moves, and
+/// what is not in force is not spoken of.
+TEST(DampingReport, NamesTheDampingThatActs) {
+  const std::string quake =
+      "[[shaking]]\nname = 'q'\nacceleration = { amplitude = 1, frequency = 20 }\n";
+  const auto warning = [&](const std::string& damping, const std::string& stage) {
+    std::string model = two_squares(
+        quake + "[[stage]]\nuntil = 'equilibrium'\n[[stage]]\nactivate = ['q']\nduration = 1\n" +
+            stage,
+        damping);
+    model.erase(model.find("[solver]"));
+    for (const std::string& w : prepared(model).warnings) {
+      if (w.find("is lost to the") != std::string::npos) return w;
+    }
+    return std::string();
+  };
+  const auto has = [](const std::string& text, const char* words) {
+    return text.find(words) != std::string::npos;
+  };
+  const std::string own = warning("0.5\nrayleigh = { fraction = 0.3, frequency = 4 }", "");
+  EXPECT_TRUE(has(own, "is lost to the stiffness-proportional part of Rayleigh damping")) << own;
+  EXPECT_TRUE(has(own, "give materials.rock.rayleigh a lower fraction")) << own;
+  EXPECT_FALSE(has(own, "multiply the damping")) << own;
+  const std::string of_stage =
+      warning("0.5", "damping = { rayleigh = { fraction = 0.3, frequency = 4 } }\n");
+  EXPECT_TRUE(has(of_stage, "give stage.1.damping.rayleigh a lower fraction")) << of_stage;
+  const std::string strain = warning("0.5", "");
+  EXPECT_TRUE(has(strain, "is lost to their strain damping")) << strain;
+  EXPECT_TRUE(has(strain, "multiply the damping of the materials")) << strain;
+  // 0.3 of critical at 4 Hz, of which the part is half, grows with the frequency.
+  const std::string fraction = fmt::format("up to {:.2g} of critical", 0.5 * 0.3 * 20.0 / 4.0);
+  EXPECT_TRUE(has(own, fraction.c_str())) << own;
 }
 
 }  // namespace

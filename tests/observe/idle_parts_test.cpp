@@ -45,6 +45,19 @@ TEST(IdleParts, WaterBelowAllBlocks) {
   EXPECT_FALSE(warns(lake("1.1"), words));
 }
 
+/// Stages until equilibrium take no time that joints have.
+TEST(IdleParts, JointsThatNeverGrowOld) {
+  const std::string words = "joints.clay.decay_time has no effect",
+                    clay =
+                        "[joints.clay]\nfriction_angle = 30\nresidual = { friction_angle = 20 "
+                        "}\ndecay_time = '3 d'\n[contact]\njoint = 'clay'\n",
+                    rest = "[[stage]]\nuntil = 'equilibrium'\n";
+  EXPECT_TRUE(warns(clay + rest + rest, words));
+  EXPECT_FALSE(warns(clay + rest + "[[stage]]\nduration = 1\n", words));
+  EXPECT_FALSE(warns(clay + rest + "[[stage]]\nramp = { time = [0, 9] }\n", words));
+  EXPECT_FALSE(warns(clay + "[solver]\nduration = 1\n", words));
+}
+
 /// A sine never ends; a stage with a duration of its own is for it.
 TEST(IdleParts, GroundMotionInAStageUntilEquilibrium) {
   const std::string

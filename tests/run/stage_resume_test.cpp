@@ -398,5 +398,59 @@ TEST(StageResume, GoesOnFromAStageWithOtherStagesBehindIt) {
   EXPECT_NE(to_string(refused.faults()[0]).find("the model is not the one"), std::string::npos);
 }
 
+/// A stage until equilibrium without a duration may last longer than all stages would by theirs.
+TEST(StageResume, GoesOnWithinAStageThatOutlastsItsDuration) {
+  const std::string model =
+      "[materials.rock]\ndensity = 2500\nyoung = 1e7\npoisson = 0.2\n"
+      "[joints.j]\nfriction_angle = 40\nkn = 1e6\n[contact]\njoint = 'j'\n"
+      "[[block]]\nfixed = true\npolygon = [[0, 0], [4, 0], [4, 1], [0, 1]]\n"
+      "[[block]]\npolygon = [[1, 1], [2, 1], [2, 2], [1, 2]]\n"
+      "[[shaking]]\nacceleration = { amplitude = 2, frequency = 5 }\napply = 'inertia'\n"
+      "[[stage]]\nuntil = 'equilibrium'\n[[stage]]\nduration = 0.5\n";
+  const ScratchFolder folder;
+  RunOptions options;
+  options.folder = folder.path().string();
+  double until = 0.0;
+  std::atomic<bool> stop{false};
+  options.stop = &stop;
+  const auto run = [&] {
+    stop = false;
+    PreparedRun part = prepared(model);
+    until += part.sim.scene->model.solver.duration + 1.0;
+    options.after_step = [&] {
+      if (part.sim.motion.state.time > until) stop = true;
+      return false;
+    };
+    const Result<Outcome> outcome = run_model(part, options);
+    ASSERT_TRUE(outcome.ok()) << to_string(outcome.faults()[0]);
+    EXPECT_EQ(outcome.value().status, Status::interrupted);
+    EXPECT_GT(outcome.value().time, until);
+  };
+  run();
+  options.resume = true;
+  run();
+}
+
+/// What is left of other stages behind it is not taken for its own.
+TEST(StageResume, LeavesNoCurveOfRampsThatAreNoMore) {
+  const std::string first =
+                        "[materials.rock]\ndensity = 2500\nyoung = 1e9\npoisson = 0.2\n"
+                        "[joints.j]\nfriction_angle = 40\n[contact]\njoint = 'j'\n"
+                        "[[block]]\nfixed = true\npolygon = [[0, 0], [4, 0], [4, 1], [0, 1]]\n"
+                        "[[block]]\npolygon = [[1, 1], [2, 1], [2, 2], [1, 2]]\n"
+                        "[[stage]]\nuntil = 'equilibrium'\n",
+                    ramp = "[[stage]]\nramp = { kh = [0, 0.1], steps = 2 }\n";
+  const ScratchFolder folder;
+  RunOptions options;
+  options.folder = folder.path().string();
+  PreparedRun before = prepared(first + ramp);
+  ASSERT_TRUE(run_model(before, options).ok());
+  ASSERT_TRUE(std::filesystem::exists(folder.path() / "curve.csv"));
+  options.from_stage = 0;
+  PreparedRun after = prepared(first + "[[stage]]\nduration = 0.01\n");
+  ASSERT_TRUE(run_model(after, options).ok());
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "curve.csv"));
+}
+
 }  // namespace
 }  // namespace edda::stage_resume_test

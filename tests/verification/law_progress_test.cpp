@@ -311,7 +311,7 @@ TEST(LawProgress, StrengthFollowsFromTheTimeAlone) {
        {"[[stage]]\nramp = { time = ['0 d', '15 d'], steps = 1 }\n",
         "[[stage]]\nramp = { time = ['0 d', '15 d'], steps = 7 }\n",
         "[[stage]]\nramp = { time = ['0 d', '5 d'], steps = 2 }\n[[stage]]\nuntil = "
-        "'equilibrium'\n[[stage]]\nramp = { time = ['100 d', '110 d'], steps = 3 }\n"}) {
+        "'equilibrium'\n[[stage]]\nramp = { time = ['5 d', '15 d'], steps = 3 }\n"}) {
     const Ran r = ran(model(ramps));
     EXPECT_EQ(r.outcome.status, Status::equilibrium) << r.outcome.message;
     EXPECT_NEAR(r.ready.sim.motion.laws.rows[0].peak_friction / exact, 1.0, 1e-12);
@@ -327,10 +327,12 @@ TEST(LawProgress, DecayBeginsWithTheChange) {
   const double exact = tangent(20.0) + (tangent(40.0) - tangent(20.0)) * std::exp(-10.0 / 30.0);
   const std::string worn = law("worn", 40, 0,
                                "residual = { friction_angle = 20 }\ndecay_time = '30 d'\n"),
-                    ten = "ramp = { time = ['0 d', '10 d'], steps = 2 }\n";
-  const Ran r = ran(on_plane(
-      law("fresh", 45, 0) + worn,
-      "[[stage]]\n" + ten + "[[stage]]\nchange = [{ joints = 'fresh', to = 'worn' }]\n" + ten));
+                    ten = "ramp = { time = ['0 d', '10 d'], steps = 2 }\n",
+                    ten_more = "ramp = { time = ['10 d', '20 d'], steps = 2 }\n";
+  const Ran r =
+      ran(on_plane(law("fresh", 45, 0) + worn,
+                   "[[stage]]\n" + ten +
+                       "[[stage]]\nchange = [{ joints = 'fresh', to = 'worn' }]\n" + ten_more));
   EXPECT_EQ(r.outcome.status, Status::equilibrium) << r.outcome.message;
   const Simulation& sim = r.ready.sim;
   ASSERT_GT(sim.motion.contacts.size(), 0u);

@@ -270,6 +270,15 @@ TEST(PropertyChange, OneThatChangesNothingIsAFault) {
     EXPECT_EQ(run.faults()[0].where.line, 34) << to_string(run.faults()[0]);
     EXPECT_NE(to_string(run.faults()[0]).find("changes nothing"), std::string::npos);
   }
+  // Nor does a ramp go on with what one before has begun.
+  const std::string again = "[[stage]]\nuntil = 'equilibrium'\n" + from + "\nramp = { change = ";
+  const Result<PreparedRun> run = prepare_run(
+      read_model_text(column("") + again + "[0, 0.4] }\n" + again + "[0.4, 1] }\n", "m.toml", {})
+          .value());
+  ASSERT_FALSE(run.ok());
+  EXPECT_NE(to_string(run.faults()[0]).find("take them further change \"soft\" to another law"),
+            std::string::npos)
+      << to_string(run.faults()[0]);
 }
 
 }  // namespace

@@ -9,10 +9,10 @@
 
 namespace edda {
 
-template <class Item>
-std::vector<std::string_view> names_in(const std::vector<Item>& items) {
+template <class Items>
+std::vector<std::string_view> names_in(const Items& items) {
   std::vector<std::string_view> names;
-  for (const Item& item : items) {
+  for (const auto& item : items) {
     if (!item.name.empty()) names.push_back(item.name);
   }
   return names;

@@ -13,8 +13,8 @@ namespace edda {
 namespace {
 
 /// The row of that name; a fault where there is none.
-template <class Item>
-Index row_of(const std::vector<Item>& items, const std::string& name, const char* what, Place place,
+template <class Items>
+Index row_of(const Items& items, const std::string& name, const char* what, Place place,
              const std::string& key, Reading& reading) {
   for (std::size_t q = 0; q < items.size(); ++q) {
     if (items[q].name == name) return static_cast<Index>(q);
@@ -98,7 +98,7 @@ void complete_fos(const Value& root, Reading& reading) {
     row_of(model.stages, fos.stage, "stage", place_of(node, "stage"), "fos.stage", reading);
   }
   for (const std::string& name : fos.exclude) {
-    row_of(model.joints, name, "joint", place_of(node, "exclude"), "fos.exclude", reading);
+    row_of(model.given_joints(), name, "joint", place_of(node, "exclude"), "fos.exclude", reading);
   }
   if (!given(node, "bracket")) {
     if (fos.varied == Varied::tilt) fos.bracket = {5.0, 45.0};

@@ -88,7 +88,8 @@ void check_fracture(const Value* node, const JointLaw& law, Reading& reading) {
 
 /// Strength that falls with time needs one to which it falls.
 void check_decay(const Value* node, const JointLaw& law, Reading& reading) {
-  if (!law.decay_time) return;
+  const bool has_peak = law.type == LawType::coulomb || law.type == LawType::slip_weakening;
+  if (!law.decay_time || !has_peak) return;
   const auto refuse = [&](std::string problem, std::string remedy) {
     add_fault(reading, place_of(node, "decay_time"), law.where.key + ".decay_time",
               std::move(problem), std::move(remedy));

@@ -262,7 +262,7 @@ void complete_pair(const Value* node, ContactPair& pair, Reading& reading) {
   if (joints || materials) return;
   std::vector<std::string_view> known;
   for (const Material& m : model.materials) known.push_back(m.name);
-  for (const JointLaw& law : model.joints) known.push_back(law.name);
+  for (const JointLaw& law : model.given_joints()) known.push_back(law.name);
   for (std::size_t i = 0; i < 2; ++i) {
     if (std::find(known.begin(), known.end(), pair.between[i]) != known.end()) continue;
     add_fault(reading, child(between, i)->place, fmt::format("{}[{}]", path, i),

@@ -73,6 +73,11 @@ void check_residual(const Value* node, const Lining& lining, Reading& reading) {
   if (!lining.residual) return;
   const Value* own = find(node, "residual");
   const std::string path = lining.where.key + ".residual";
+  if (const Table* keys = std::get_if<Table>(&own->content); keys != nullptr && keys->empty()) {
+    add_fault(reading, own->place, path, "gives no strength",
+              "give compressive_strength, tensile_strength or both, or leave it out");
+    return;
+  }
   const RockStrength* of_material = nullptr;
   if (lining.material != none) {
     const auto& strength =

@@ -89,6 +89,17 @@ void check_flooded(const Value* node, const Water& water, Reading& reading) {
   }
 }
 
+/// Rain and injections bring water, and take none out.
+void check_factors(const Value* node, const Water& water, Reading& reading) {
+  const std::vector<double>& factors = water.rise.value;
+  if ((!water.rain && !water.injection) || factors.empty()) return;
+  const double least = *std::min_element(factors.begin(), factors.end());
+  if (least < 0.0)
+    add_fault(reading, find(node, "history")->place, water.where.key + ".history",
+              fmt::format("{} has the factor {:g}, below 0", water.history, least),
+              "give factors of 0 and more; water leaves along lines with a level");
+}
+
 }  // namespace
 
 void complete_loads(const Value& root, Reading& reading) {
@@ -106,6 +117,7 @@ void complete_loads(const Value& root, Reading& reading) {
     check_table(node, water, reading);
     check_flooded(node, water, reading);
     read_history(node, water.where.key, water.history, water.rise, reading);
+    check_factors(node, water, reading);
   }
 }
 

@@ -63,7 +63,7 @@ void complete_points(const Value& root, Reading& reading) {
   } else if (model.solver.switching == Switching::exact) {
     refuse(solver, "switching", "solver.switching", "exact switching", reading);
   }
-  for (const JointLaw& law : model.joints) {
+  for (const JointLaw& law : model.given_joints()) {
     check_joint(find(find(&root, "joints"), law.name), law, reading);
   }
   check_solver(solver, model.solver, reading);

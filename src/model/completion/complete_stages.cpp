@@ -319,6 +319,23 @@ void complete_ramp(const Value* own, Stage& stage, Reading& reading) {
     refuse("strength_factor", "is given beside a ramp of the strength", "leave one of them out");
 }
 
+/// A ramp of time goes on from the age that joints have by then, `age` (s), to which each stage
+/// adds the time that it takes.
+void check_age(const Value* own, const Stage& stage, double& age, Reading& reading) {
+  if (!stage.to_equilibrium()) age += stage.duration;
+  if (!stage.ramp || stage.ramp->varied != Varied::time || !stage.ramp->what.range) return;
+  const auto [from, to] = *stage.ramp->what.range;
+  constexpr double same = 1e-9;
+  if (std::abs(from - age) > same * std::max(age, to))
+    add_fault(
+        reading, place_of(find(own, "ramp"), "time"), stage.where.key + ".ramp.time",
+        fmt::format("begins at {:.10g} s, where {:.10g} s have passed by then", from, age),
+        fmt::format("begin with \"{:.10g} s\": where the ramp of time before it ends, with the "
+                    "durations of stages since",
+                    age));
+  age = to;
+}
+
 /// What a ramp varies must act in its stage.
 void check_acts(const Value* own, const Stage& stage, const std::set<std::string>& acting,
                 Reading& reading) {
@@ -395,13 +412,14 @@ void complete_stages(const Value& root, Reading& reading) {
     const bool at_once = std::find(first.begin(), first.end(), name) != first.end();
     if (!at_once && acts_at_first(model, std::string(name))) acting.emplace(name);
   }
-  double sum = 0.0;
+  double sum = 0.0, age = 0.0;
   bool all_given = true;
   for (std::size_t i = 0; i < reading.model.stages.size(); ++i) {
     Stage& stage = reading.model.stages[i];
     const Value* own = element(root, "stage", i);
     if (!is_table(own)) continue;
     complete_ramp(own, stage, reading);
+    check_age(own, stage, age, reading);
     if ((stage.ramp || stage.to_equilibrium()) && !given(own, "duration")) {
       stage.duration = longest_by_default(model, stage);
       stage.may_last = !stage.ramp;

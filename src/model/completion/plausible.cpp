@@ -190,8 +190,7 @@ void check_joints(const Model& model, std::vector<std::string>& warnings) {
   constexpr double least_strength = 1e3;  // Pa
   constexpr double right_angle = 0.5 * std::numbers::pi;
   Doubts stiffness, shear, walls, strength, angle, tension;
-  for (const JointLaw& law : model.joints) {
-    if (law.change) continue;
+  for (const JointLaw& law : model.given_joints()) {
     const std::string& key = law.where.key;
     if (law.kn && *law.kn < 1e6) {
       stiffness.add(low(key + ".kn", *law.kn, "Pa/m", "a joint", "Pa/m", 1e8));

@@ -181,7 +181,7 @@ constexpr std::array water_keys{
     Key{"level", at<&Water::level>, number(D::length), otherwise("none; either this or table"), "With [flow]: its level where it acts along a line in the rock alone, such as that of a drain."},
     Key{"rain", at<&Water::rain>, number(D::velocity, above(0)), otherwise("none; in place of table and level"), "With [flow]: rain on the ground under the open sky, such as \"20 mm/h\": joints take it in as far as they can, the rest runs off."},
     Key{"injection", at<&Water::injection>, number(D::discharge, above(0)), otherwise("none; in place of table and level"), "With [flow]: what a borehole injects into the joints, for each metre of thickness."},
-    Key{"at", at<&Water::at>, point, otherwise("required with injection"), "Where the injection is; it goes into the crossing or end of joints nearest to this point, as drawn."},
+    Key{"at", at<&Water::at>, point, otherwise("required with injection"), "Where the injection is; it goes into the crossing or end of joints that conduct water inside the rock nearest to this point, as drawn."},
     Key{"sides", at<&Water::sides>, words_of(side_names), otherwise("none"), "With [flow]: sides of the box round the model along which the rock has its head; there water flows in and out. Sides with a boundary are impermeable otherwise."},
     Key{"along", at<&Water::along>, polyline, otherwise("none"), "With [flow]: a line that has its head where it meets joints, such as a row of drain holes."},
     Key{"flooded", at<&Water::flooded>, name_list, initial, "Names of the openings that are full of water, too; the others are dry."},
