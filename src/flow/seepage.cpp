@@ -246,7 +246,8 @@ class SeepageSolver {
                     ? b.by_pressure * (water_[n].pressure + least) + rounding * storage_->content[n]
                     : b.by_filled;
       }
-      largest = std::max(largest, whole > 0.0 ? std::abs(b.net) / whole : 0.0);
+      const bool overfull = storage_ != nullptr && !(whole > 0.0) && b.net < 0.0;
+      largest = std::max(largest, whole > 0.0 ? std::abs(b.net) / whole : overfull ? 1.0 : 0.0);
     }
     return largest;
   }
@@ -336,7 +337,8 @@ class SeepageSolver {
           add(k, row[m], -time * conductance * (leaves ? water_[n].filled : water_[m].filled));
         } else {
           if (!leaves) add(k, row[m], time * conductance * drop);
-          if (storage_ != nullptr) add(k, row[m], drawn_in(end) * water_[n].filled);
+          if (storage_ != nullptr && given_[n].kind != Kind::rain)
+            add(k, row[m], drawn_in(end) * water_[n].filled);
         }
       }
       if (storage_ == nullptr || given_[n].kind == Kind::rain) continue;
