@@ -44,6 +44,11 @@ inline double mass_damping_of(const Masses& masses, const Damping& damping, std:
   return masses.decay.empty() ? damping.mass_damping() : masses.decay[i];
 }
 
+/// Masses::viscosity of block i, s.
+inline double viscosity_of(const Masses& masses, std::size_t i) {
+  return masses.viscosity.empty() ? 0.0 : masses.viscosity[i];
+}
+
 /// Inertial mass of block i as a whole, kg: more than that of its weight where inertia has been
 /// raised. (For `consistent` from M^-1 for a uniform acceleration: the cover is centred on the
 /// centroid.)

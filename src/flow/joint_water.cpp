@@ -146,10 +146,6 @@ class Flow {
     return {levels.from + drop * (4.0 * pipe.of_to.a - 2.0 * pipe.of_to.b),
             levels.from + drop * (4.0 * pipe.of_to.b - 2.0 * pipe.of_to.a)};
   }
-  /// s + p/K
-  double part_of(Id n) const {
-    return water_[n].filled + water_[n].pressure / s_.model.flow->bulk_modulus;
-  }
   /// What the nodes contained when the time began, and the apertures. A joint that was none then
   /// has what it has.
   void take_beginning(Storage& storage) const {
@@ -182,7 +178,7 @@ class Flow {
   /// Of the node at this end, what it has in the pipe.
   double content_at(const FlowPipe& pipe, std::size_t end) const {
     return volume_at(pipe, pipe.aperture[end].value(), pipe.aperture[1 - end].value()) *
-           part_of(end == 0 ? pipe.from : pipe.to);
+           water_[end == 0 ? pipe.from : pipe.to].content(s_.model.flow->bulk_modulus);
   }
   /// Of what a pipe contained, the share of its first node in its first half and that of the other
   /// one in the second, what is in the half from `from` to `to` of a pipe of the same face.

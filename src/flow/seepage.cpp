@@ -12,9 +12,9 @@ namespace {
 using Kind = NodeCondition::Kind;
 
 /// What is unknown of a node: p where it is wet, s where air enters. Discharges grow with the
-/// unknown of the node they leave and fall with that of the node they enter, so that sweeps over
-/// the nodes one by one come nearer from anywhere (an M-function: Rheinboldt 1970); Newton's method
-/// makes an end of it.
+/// unknown of the node they leave and fall with that of the node they enter, so that in steady flow
+/// sweeps over the nodes one by one come nearer from anywhere (an M-function: Rheinboldt 1970);
+/// Newton's method makes an end of it.
 class SeepageSolver {
  public:
   SeepageSolver(const FlowNetwork& net, const std::vector<NodeCondition>& given, double unit_weight,
@@ -171,7 +171,7 @@ class SeepageSolver {
   /// Of the time that passes, with what the node stores: m2.
   void store(Id n, Balance& b) const {
     for (double* value : {&b.net, &b.by_pressure, &b.by_filled}) *value *= storage_->passed;
-    if (given_[n].kind == Kind::rain) return;
+    if (!stores(n)) return;
     double volume = 0.0, drawn = 0.0;
     for (std::size_t q = begin_[n]; q < begin_[n + 1]; ++q) {
       const auto [m, conductance, end] = of_node_[q];
@@ -192,10 +192,9 @@ class SeepageSolver {
     const double to = drawn_to(net_.pipes[end / 2], {opening(a), opening(a + 1)});
     return end == a ? -to : to;
   }
-  /// s + p/K
-  double part_of(Id n) const {
-    return water_[n].filled + water_[n].pressure / storage_->bulk_modulus;
-  }
+  double part_of(Id n) const { return water_[n].content(storage_->bulk_modulus); }
+  /// Rain is on the ground, which stores none.
+  bool stores(Id n) const { return storage_ != nullptr && given_[n].kind != Kind::rain; }
   /// Finds the apertures of both ends of a pipe under the pressures as they are.
   void find_apertures(Id pipe) {
     for (const Id end : {2 * pipe, 2 * pipe + 1}) {
@@ -246,8 +245,11 @@ class SeepageSolver {
                     ? b.by_pressure * (water_[n].pressure + least) + rounding * storage_->content[n]
                     : b.by_filled;
       }
-      const bool overfull = storage_ != nullptr && !(whole > 0.0) && b.net < 0.0;
-      largest = std::max(largest, whole > 0.0 ? std::abs(b.net) / whole : overfull ? 1.0 : 0.0);
+      if (whole > 0.0) {
+        largest = std::max(largest, std::abs(b.net) / whole);
+      } else if (storage_ != nullptr && b.net < 0.0) {
+        largest = std::max(largest, 1.0);  // more than it can hold
+      }
     }
     return largest;
   }
@@ -337,11 +339,10 @@ class SeepageSolver {
           add(k, row[m], -time * conductance * (leaves ? water_[n].filled : water_[m].filled));
         } else {
           if (!leaves) add(k, row[m], time * conductance * drop);
-          if (storage_ != nullptr && given_[n].kind != Kind::rain)
-            add(k, row[m], drawn_in(end) * water_[n].filled);
+          if (stores(n)) add(k, row[m], drawn_in(end) * water_[n].filled);
         }
       }
-      if (storage_ == nullptr || given_[n].kind == Kind::rain) continue;
+      if (!stores(n)) continue;
       for_growth(n, [&](Id m, double growth) {
         if (m != n && row[m] != no_id && wet[row[m]] != 0) add(k, row[m], growth);
       });

@@ -35,6 +35,8 @@ struct NodeCondition {
 struct NodeWater {
   double pressure = 0.0;  ///< p, Pa
   double filled = 0.0;    ///< s
+  /// s + p/K, of the volume of its node.
+  double content(double bulk_modulus) const { return filled + pressure / bulk_modulus; }
 };
 
 /// What the joints store while a time passes.

@@ -178,7 +178,7 @@ std::uint64_t equations_hash(const StiffnessInputs& w, std::size_t i) {
   for (const double number :
        {w.damping.local, mass_damping_of(w.masses, w.damping, i), b.lame_lambda[i], b.lame_mu[i]})
     hash.add(number);
-  hash.add(w.masses.viscosity.empty() ? 0.0 : w.masses.viscosity[i]);
+  hash.add(viscosity_of(w.masses, i));
   hash.add(w.masses.mode_damping[0].empty() ? 0.0 : w.masses.mode_damping[0][i]);
   hash.add(w.masses.kind == MassKind::consistent ? w.masses.inverse[0][i] : 0.0);
   // The factor of a spring, 1 or 2, enters as the sign of its length.

@@ -82,7 +82,7 @@ MeshBound mesh_bound(const StiffnessInputs& w, std::size_t i) {
     at.yy += w.springs.kyy[q];
   }
   const double inertia = 1.0 / w.masses.mode_inverse[i], raised = inertia / b.mass[i];
-  const double viscosity = w.masses.viscosity.empty() ? 0.0 : w.masses.viscosity[i];
+  const double viscosity = viscosity_of(w.masses, i);
   MeshBound bound;
   double of_contacts = 0.0, of_boundaries = 0.0, of_bolts = 0.0, largest = 0.0;
   for (std::size_t j = 0; j < m.nodes_of(i); ++j) {

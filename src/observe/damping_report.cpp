@@ -46,7 +46,7 @@ Id most_viscous(const BlockSet& blocks, const Masses& masses) {
   double viscosity = -1.0;
   for (std::size_t i = 0; i < blocks.size(); ++i) {
     if (blocks.fixed[i] != 0) continue;
-    const double eta = masses.viscosity.empty() ? 0.0 : masses.viscosity[i];
+    const double eta = viscosity_of(masses, i);
     if (!(eta > viscosity)) continue;
     viscosity = eta;
     most = static_cast<Id>(i);
@@ -84,8 +84,7 @@ std::vector<StrainDampingAt> strain_damping_at(const Simulation& sim) {
     if (is_new) fill_viscosity(m->second, scene.blocks, stages[stage].damping, scene.zones);
     const Id most = most_viscous(scene.blocks, masses);
     if (most == no_id) return found;
-    const double viscosity = masses.viscosity.empty() ? 0.0 : masses.viscosity[most],
-                 frequency = origin.curve.frequency;
+    const double viscosity = viscosity_of(masses, most), frequency = origin.curve.frequency;
     StrainDampingAt at{origin.of, frequency, std::numbers::pi * viscosity * frequency, most};
     const auto rock = static_cast<std::size_t>(scene.blocks.material[most]);
     name_damping(scene.model, stages[stage], scene.model.materials[rock], at);

@@ -235,9 +235,8 @@ std::vector<Check> checks_of(const Simulation& sim, const Outcome& o) {
 /// Whether the block has no strain damping, and could have: it is not meshed.
 static bool is_undamped(const Simulation& sim, Id block) {
   const BlockSet& b = sim.scene->blocks;
-  const std::vector<double>& viscosity = sim.motion.masses.viscosity;
   return b.fixed[block] == 0 && !b.is_meshed(block) &&
-         (viscosity.empty() || viscosity[block] == 0.0);
+         viscosity_of(sim.motion.masses, block) == 0.0;
 }
 
 static std::string chatter_text(const Check& check, const Simulation& sim, const Chatter& chatter) {

@@ -141,11 +141,10 @@ void warn_of_idle_flow(const Simulation& sim, std::vector<std::string>& warnings
       const Vec2 into = b.vertex(corner) + b.origin;
       const double far = norm(into - *water.at);
       if (far > 2.0 * b.radius[b.vertex_block[corner]])
-        warnings.push_back(
-            fmt::format("{}.at: the water goes into the joints {:.3g} m from there, at {}, the "
-                        "nearest crossing "
-                        "inside the rock: give a point near joints that conduct water",
-                        water.where.key, far, place_label(into)));
+        warnings.push_back(fmt::format(
+            "{}.at: the water goes into the joints {:.3g} m from there, at {}, the "
+            "nearest crossing inside the rock: give a point near joints that conduct water",
+            water.where.key, far, place_label(into)));
     }
     const bool in_rock = !water.sides.empty() || !water.along.empty();
     if (!in_rock || joints.heads[q] > 0 || !sim.attached.loads.intervals.waters[q].acts()) continue;

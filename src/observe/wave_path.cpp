@@ -83,7 +83,7 @@ void add_block(const BlockSet& b, const Masses& masses, const Piece& piece, doub
     material = b.material[i];
   }
   WaveLayer& layer = path.layers.back();
-  const double eta = masses.viscosity.empty() ? 0.0 : masses.viscosity[i];
+  const double eta = viscosity_of(masses, i);
   const double before = compliance;
   compliance += of_rock + joint;
   layer.viscosity = (before * layer.viscosity + of_rock * eta) / compliance;
